@@ -68,7 +68,7 @@ struct Cursor {
 
 }  // namespace
 
-ArchiveWriter::ArchiveWriter(std::string kind, std::uint32_t version) {
+ArchiveWriter::ArchiveWriter(const std::string& kind, std::uint32_t version) {
   header_.assign(kMagic, kMagicSize);
   put(header_, version);
   put_name(header_, kind);

@@ -22,7 +22,7 @@ namespace motex {
 class ArchiveWriter {
  public:
   /// kind: what the archive holds ("motion_texture"); version: of that kind's fields.
-  ArchiveWriter(std::string kind, std::uint32_t version);
+  ArchiveWriter(const std::string& kind, std::uint32_t version);
   void add(const std::string& name, std::string_view text);
   void add(const std::string& name, const FrameMatrix& values);
   void add(const std::string& name, const FrameMatrixF& values);
@@ -39,8 +39,8 @@ class ArchiveWriter {
 };
 
 /// Reads what ArchiveWriter wrote, from strangers too: every size is checked against the bytes that are there before
-/// anything is allocated. Throws ParseError (with the byte) when truncated, altered or foreign, UnsupportedFile when the
-/// kind differs or the version is newer.
+/// anything is allocated. Throws ParseError (with the byte) when truncated, altered or foreign, UnsupportedFile when
+/// the kind differs or the version is newer.
 class ArchiveReader {
  public:
   /// name: for messages. The bytes are copied.

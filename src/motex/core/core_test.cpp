@@ -56,7 +56,11 @@ TEST(Parallel, DoesEveryTaskOnceAndPassesExceptionsOn) {
   std::vector<int> done(1000, 0);
   parallel_for(2, 1000, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
   EXPECT_EQ(std::accumulate(done.begin(), done.end(), 0), 1000);
-  EXPECT_THROW(parallel_for(2, 100, [](int i) { if (i == 50) throw NumericalFailure("x"); }), NumericalFailure);
+  EXPECT_THROW(parallel_for(2, 100,
+                            [](int i) {
+                              if (i == 50) throw NumericalFailure("x");
+                            }),
+               NumericalFailure);
 }
 
 TEST(Gemm, AgreesWithEigenForEveryTranspose) {

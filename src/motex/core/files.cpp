@@ -31,7 +31,8 @@ std::string read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::fclose(file);
   if (failed) throw InvalidInput(path.string() + ": reading failed");
   if (bytes.size() > max_bytes)
-    throw InvalidInput(path.string() + ": larger than " + std::to_string(max_bytes >> 20) + " MiB, the most that is read");
+    throw InvalidInput(path.string() + ": larger than " + std::to_string(max_bytes >> 20) +
+                       " MiB, the most that is read");
   return bytes;
 }
 

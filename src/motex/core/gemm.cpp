@@ -8,7 +8,7 @@ namespace motex {
 namespace {
 
 // Our own threads divide the work, in blocks that do not depend on their number: same bytes for any --jobs.
-const bool single_threaded = [] {
+const bool kSingleThreaded = [] {
   openblas_set_num_threads(1);
   return true;
 }();

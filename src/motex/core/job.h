@@ -17,7 +17,8 @@ struct JobContext {
   std::function<void(std::string_view stage, double fraction)> on_progress;
   /// One complete sentence a call; the job goes on.
   std::function<void(const std::string& message)> on_warning;
-  /// Set to true (from any thread or a signal handler) to stop: the job throws Cancelled soon and leaves nothing behind.
+  /// Set to true (from any thread or a signal handler) to stop: the job throws Cancelled soon and leaves nothing
+  /// behind.
   const std::atomic<bool>* cancel = nullptr;
   /// Threads to use; 0 = all cores. Results do not depend on it.
   int jobs = 0;

@@ -7,8 +7,8 @@
 
 namespace motex {
 
-/// One line of an options struct as its visit_fields() lists it. Command line flags, JSON, Python keywords, the studio's
-/// form and docs/reference_options.md are all made from these lines.
+/// One line of an options struct as its visit_fields() lists it. Command line flags, JSON, Python keywords, the
+/// studio's form and docs/reference_options.md are all made from these lines.
 ///
 ///   struct FitOptions {
 ///     double prior_frames = 30;

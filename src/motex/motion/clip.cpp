@@ -57,7 +57,8 @@ Clip slice(const Clip& clip, Index first, Index count) {
 }
 
 Clip resample(const Clip& clip, double frame_time_secs) {
-  if (!(frame_time_secs > 0) || !std::isfinite(frame_time_secs)) throw InvalidInput("the new frame time must be positive");
+  if (!(frame_time_secs > 0) || !std::isfinite(frame_time_secs))
+    throw InvalidInput("the new frame time must be positive");
   if (clip.num_frames() == 0) throw InvalidInput(clip.name + ": no frame to resample");
   const double ratio = frame_time_secs / clip.frame_time_secs;
   const double length = static_cast<double>(clip.num_frames() - 1);

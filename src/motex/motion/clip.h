@@ -48,8 +48,8 @@ Clip resample(const Clip& clip, double frame_time_secs);
 
 /// World pose of every joint of one frame.
 struct Pose {
-  Eigen::Matrix<double, 3, Eigen::Dynamic> positions;   ///< 3 × joints
-  Eigen::Matrix<double, 4, Eigen::Dynamic> rotations;   ///< 4 × joints, coefficients as Eigen: x, y, z, w
+  Eigen::Matrix<double, 3, Eigen::Dynamic> positions;  ///< 3 × joints
+  Eigen::Matrix<double, 4, Eigen::Dynamic> rotations;  ///< 4 × joints, coefficients as Eigen: x, y, z, w
   Quat rotation(int joint) const { return Quat(rotations.col(joint)); }
 };
 /// Forward kinematics. `pose` is resized once and may be reused. Cost O(joints).

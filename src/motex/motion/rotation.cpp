@@ -87,7 +87,8 @@ Vector3 euler_from_quat(const EulerOrder& order, const Quat& q, const Vector3& n
   if (locked) {
     // Only a ± c is determined: keep a, solve for the last factor.
     first[0] = near[0];
-    const Quat done = Quat(Eigen::AngleAxisd(first[0], axis_vector(i))) * Quat(Eigen::AngleAxisd(first[1], axis_vector(j)));
+    const Quat done =
+        Quat(Eigen::AngleAxisd(first[0], axis_vector(i))) * Quat(Eigen::AngleAxisd(first[1], axis_vector(j)));
     const Quat rest = done.conjugate() * q;
     const int last = order.axis[2];
     first[2] = 2 * std::atan2(rest.vec()[last], rest.w());

@@ -31,7 +31,8 @@ struct EulerOrder {
 };
 Quat quat_from_euler(const EulerOrder& order, const Vector3& angles_rad);
 /// Angles (radians) with quat_from_euler(order, angles) = ±q; of the two solutions and their turns, the one nearest to
-/// `near`. At gimbal lock the first angle is kept from `near`. Orders whose first and last axes are equal are supported.
+/// `near`. At gimbal lock the first angle is kept from `near`. Orders whose first and last axes are equal are
+/// supported.
 Vector3 euler_from_quat(const EulerOrder& order, const Quat& q, const Vector3& near = Vector3::Zero());
 
 }  // namespace motex

@@ -10,7 +10,8 @@
 namespace motex {
 
 const char* channel_name(Channel channel) {
-  static constexpr const char* kNames[] = {"Xposition", "Yposition", "Zposition", "Xrotation", "Yrotation", "Zrotation"};
+  static constexpr const char* kNames[] = {"Xposition", "Yposition", "Zposition",
+                                           "Xrotation", "Yrotation", "Zrotation"};
   return kNames[static_cast<int>(channel)];
 }
 
@@ -52,7 +53,8 @@ void check_skeleton(const Skeleton& skeleton) {
 
 std::string skeleton_difference(const Skeleton& a, const Skeleton& b) {
   const auto parent_name = [](const Skeleton& s, const Joint& joint) {
-    return joint.parent_idx < 0 ? std::string("none") : "'" + s.joints[static_cast<std::size_t>(joint.parent_idx)].name + "'";
+    return joint.parent_idx < 0 ? std::string("none")
+                                : "'" + s.joints[static_cast<std::size_t>(joint.parent_idx)].name + "'";
   };
   for (std::size_t j = 0; j < std::min(a.joints.size(), b.joints.size()); ++j) {
     const Joint &x = a.joints[j], &y = b.joints[j];
@@ -73,7 +75,9 @@ double metres_per_unit_or_guess(const Skeleton& skeleton) {
   std::vector<double> reach(skeleton.joints.size(), 0);
   std::vector<double> rise(skeleton.joints.size(), 0);
   double down = 0, up = 0;
-  const auto consider = [&](double length, double height) { (height < 0 ? down : up) = std::max(height < 0 ? down : up, length); };
+  const auto consider = [&](double length, double height) {
+    (height < 0 ? down : up) = std::max(height < 0 ? down : up, length);
+  };
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     if (joint.parent_idx < 0) continue;

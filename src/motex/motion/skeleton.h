@@ -18,9 +18,9 @@ const char* channel_name(Channel channel);
 
 struct Joint {
   std::string name;
-  int parent_idx = -1;                ///< < own index; −1 for a root
-  Vector3 offset = Vector3::Zero();   ///< position in the parent's frame when no channel says otherwise
-  std::vector<Channel> channels;      ///< as in the file, kept so that writing restores them; may be empty
+  int parent_idx = -1;               ///< < own index; −1 for a root
+  Vector3 offset = Vector3::Zero();  ///< position in the parent's frame when no channel says otherwise
+  std::vector<Channel> channels;     ///< as in the file, kept so that writing restores them; may be empty
 };
 
 /// The tip of a limb: a point fixed to a joint.
@@ -50,8 +50,8 @@ void check_skeleton(const Skeleton& skeleton);
 /// "" when a and b have the same joint names and parents, else one sentence naming the first joint that differs.
 std::string skeleton_difference(const Skeleton& a, const Skeleton& b);
 
-/// Metres per unit: the skeleton's own, or chosen so that the body, standing, is 1.7 m: the longest path in offsets from
-/// the lowest to the highest tip in the rest pose counts as the standing height.
+/// Metres per unit: the skeleton's own, or chosen so that the body, standing, is 1.7 m: the longest path in offsets
+/// from the lowest to the highest tip in the rest pose counts as the standing height.
 double metres_per_unit_or_guess(const Skeleton& skeleton);
 
 }  // namespace motex
