@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <unordered_map>
 
 #include "motex/core/files.h"
 #include "motex/motion_io/bvh.h"
@@ -17,6 +17,15 @@ constexpr int kMaxJoints = 10'000;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
 // Joints without channels cost memory in every frame and no text: what a file may ask for is bounded by its own size.
 constexpr double kBaseBytes = 256e6, kBytesPerByte = 64;
+
+// What may occur once or thousands of times and is said once.
+struct Oddity {
+  int count = 0;
+  std::string first;
+  void note(const std::string& name) {
+    if (count++ == 0) first = name;
+  }
+};
 
 class BvhReader {
  public:
@@ -32,6 +41,7 @@ class BvhReader {
 
  private:
   void read_hierarchy();
+  void warn_of_oddities() const;
   void read_block(std::string_view keyword);
   void open_joint(bool root);
   void open_end_site();
@@ -62,7 +72,8 @@ class BvhReader {
   const ReadClipOptions& options_;
   const JobContext& job_;
   Skeleton skeleton_;
-  std::set<std::string> names_;
+  std::unordered_map<std::string, int> names_;  // how many joints are called so
+  Oddity renamed_, nameless_, tipless_;
   std::vector<Open> open_;
   double stated_frames_ = 0, frame_time_secs_ = 0;
   std::size_t num_channels_ = 0;
@@ -83,6 +94,16 @@ void BvhReader::read_hierarchy() {
     scan_.fail("MOTION begins, but the '{' of line " + std::to_string(open_.back().line) + " has no '}'");
   if (skeleton_.joints.empty()) scan_.fail("there is no ROOT before MOTION");
   if (num_channels_ == 0) scan_.fail("no joint has a channel, so that nothing can move");
+  warn_of_oddities();
+}
+
+void BvhReader::warn_of_oddities() const {
+  const auto say = [&](const Oddity& oddity, const std::string& what) {
+    if (oddity.count > 0) warn(std::to_string(oddity.count) + " " + what + oddity.first);
+  };
+  say(renamed_, "joint(s) had the name of another and were renamed, the first to ");
+  say(nameless_, "joint(s) had no name and were given one, the first ");
+  say(tipless_, "joint(s) at the end of a limb have no End Site, so that their tips are unknown, the first ");
 }
 
 void BvhReader::read_block(std::string_view keyword) {
@@ -107,11 +128,14 @@ void BvhReader::open_joint(bool root) {
   joint.name = std::string(scan_.rest_of_line());
   if (joint.name.empty()) {
     joint.name = "joint" + std::to_string(idx);
-    warn("joint " + std::to_string(idx) + " has no name; it is called '" + joint.name + "'");
+    nameless_.note("'" + joint.name + "'");
   }
   const std::string stated = joint.name;
-  for (int n = 2; !names_.insert(joint.name).second; ++n) joint.name = stated + "_" + std::to_string(n);
-  if (joint.name != stated) warn("two joints are named " + in_quotes(stated) + "; one is now '" + joint.name + "'");
+  for (int& n = names_[stated]; n++ > 0;) {
+    joint.name = stated + "_" + std::to_string(n);
+    if (names_.emplace(joint.name, 1).second) break;
+  }
+  if (joint.name != stated) renamed_.note("'" + joint.name + "'");
   joint.parent_idx = root ? -1 : open_.back().joint_idx;
   if (!root) open_.back().has_tip = true;
   expect_open_brace("joint " + in_quotes(stated));
@@ -130,8 +154,7 @@ void BvhReader::open_end_site() {
 
 void BvhReader::close() {
   const Open& closed = open_.back();
-  if (closed.joint_idx >= 0 && !closed.has_tip)
-    warn("joint " + in_quotes(joint(closed.joint_idx).name) + " has no End Site; where its tip is stays unknown");
+  if (closed.joint_idx >= 0 && !closed.has_tip) tipless_.note(in_quotes(joint(closed.joint_idx).name));
   open_.pop_back();
 }
 
@@ -209,7 +232,9 @@ void BvhReader::read_rows() {
       if (c > 0 && scan_.at_end())
         scan_.fail("the file ends inside frame " + std::to_string(row) + ", after " + std::to_string(c) + " of its " +
                    std::to_string(num_channels_) + " numbers");
-      values_.push_back(scan_.number("a number of frame " + std::to_string(row)));
+      double value = 0;
+      if (!scan_.plain_number(value)) value = scan_.number("a number of frame " + std::to_string(row));
+      values_.push_back(value);
     }
     last_line = scan_.line();
     if (last_line != start && first_wrapped_line_ == 0) first_wrapped_line_ = start;

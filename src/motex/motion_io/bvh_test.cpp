@@ -58,14 +58,14 @@ constexpr Expectation kSynthetic[] = {
     {"comma_decimals", 30, 0, "decimal commas"},
     {"cr_only_newlines", 30, 0, ""},
     {"crlf_and_trailing_blank_lines", 30, 0, ""},
-    {"duplicate_joint_names", 30, 0, "one is now 'Hips_2'"},
+    {"duplicate_joint_names", 30, 0, "renamed, the first to 'Hips_2'"},
     {"empty", 0, 1, "empty"},
     {"frame_wrapped_over_two_lines", 30, 0, "wrapped over several lines, the first at line 19"},
     {"header_says_fewer_frames", 30, 0, "states 10 frames, the file holds 30"},
     {"header_says_more_frames", 30, 0, "states 100 frames, the file holds 30"},
     {"huge_frame_count_header", 30, 0, "states 4294967296 frames, the file holds 30"},
     {"joint_name_with_spaces", 30, 0, ""},
-    {"leaf_without_end_site", 30, 0, "'Spine' has no End Site"},
+    {"leaf_without_end_site", 30, 0, "the first 'Spine'"},
     {"lower_case_keywords", 30, 0, ""},
     {"missing_closing_brace", 0, 15, "the '{' of line 3 has no '}'"},
     {"nan_and_inf_values", 0, 26, "'nan' is not a finite number"},
@@ -126,6 +126,18 @@ TEST(BvhRead, NamesAndChannels) {
 
 std::string hierarchy(const std::string& root, const std::string& rest) {
   return "HIERARCHY\nROOT a\n{\nOFFSET 1 2 3\n" + root + "\n}\nMOTION\n" + rest;
+}
+
+TEST(BvhRead, RenamedJointsStayApart) {
+  const auto joint = [](const std::string& name) { return "JOINT " + name + "\n{\nOFFSET 0 1 0\n}\n"; };
+  const Read got = read(hierarchy("CHANNELS 1 Xrotation\n" + joint("a_2") + joint("a") + joint("a") + joint(""),
+                                  "Frames: 1\nFrame Time: 1\n5\n"));
+  const auto& joints = got.clip.skeleton.joints;
+  EXPECT_EQ(joints[1].name, "a_2");
+  EXPECT_EQ(joints[2].name, "a_3");
+  EXPECT_EQ(joints[3].name, "a_4");
+  EXPECT_EQ(joints[4].name, "joint4");
+  EXPECT_EQ(got.warnings.size(), 3U);
 }
 
 TEST(BvhRead, Errors) {

@@ -73,18 +73,21 @@ std::string_view TextScanner::next_line() {
   return trimmed(text_.substr(start, at_ - start));
 }
 
-double TextScanner::number(std::string_view what) {
+bool TextScanner::plain_number(double& value) {
   skip_space();
   const char* begin = text_.data() + at_;
   const char* const end = text_.data() + text_.size();
-  double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   const bool whole = stop == end || is_space(*stop) || is_brace(*stop);
-  if (error == std::errc() && whole && std::abs(value) <= kLargestNumber) {
-    at_ += static_cast<std::size_t>(stop - begin);
-    return value;
-  }
-  if (begin == end) fail("the file ends where " + std::string(what) + " should stand");
+  if (error != std::errc() || !whole || !(std::abs(value) <= kLargestNumber)) return false;
+  at_ += static_cast<std::size_t>(stop - begin);
+  return true;
+}
+
+double TextScanner::number(std::string_view what) {
+  double value = 0;
+  if (plain_number(value)) return value;
+  if (at_end()) fail("the file ends where " + std::string(what) + " should stand");
   return parse_number(word(), what);
 }
 

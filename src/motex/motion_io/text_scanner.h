@@ -25,6 +25,8 @@ class TextScanner {
   std::string_view next_line();
   /// Next number, finite and at most 1e12 in size; `what` names it in the ParseError that is thrown otherwise.
   double number(std::string_view what);
+  /// The same, false and nothing read when a plain number does not come next.
+  bool plain_number(double& value);
   /// The text of a number as `number` reads it; where it stands is the current line.
   double parse_number(std::string_view text, std::string_view what);
 
