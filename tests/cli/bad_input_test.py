@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: 2026 The motex authors
+# SPDX-License-Identifier: MIT
+"""Bad input: one clear message, the right exit code, nothing half-written, nothing lost."""
+
+import os
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from command import CLIPS, MOTEX, SYNTHETIC, CommandTest, run, write_cut
+
+
+class BadClips(CommandTest):
+    def learn_fails(self, *clips, saying):
+        self.fail_with(2, "motion", "learn", *clips, "-o", self.folder / "x.motex", saying=saying)
+
+    def test_too_short(self):
+        self.learn_fails(write_cut(CLIPS[0], self.folder / "short.bvh", 72), saying="short")
+
+    def test_one_frame(self):
+        self.learn_fails(write_cut(CLIPS[0], self.folder / "one.bvh", 1), saying="one.bvh|short|frame")
+
+    def test_zero_frames(self):
+        self.learn_fails(SYNTHETIC / "zero_frames.bvh", saying="frame")
+
+    def test_different_skeletons_names_the_first_joint(self):
+        self.learn_fails(CLIPS[0], SYNTHETIC / "ok_reference.bvh", saying="joint")
+
+    def test_not_a_number_says_the_line(self):
+        self.learn_fails(SYNTHETIC / "nan_and_inf_values.bvh", saying=r"nan_and_inf_values\.bvh:\d+: ")
+
+    def test_broken_text_says_the_line(self):
+        self.learn_fails(SYNTHETIC / "missing_closing_brace.bvh", saying=r"missing_closing_brace\.bvh:\d+: ")
+
+    def test_missing_file(self):
+        self.learn_fails(self.folder / "none.bvh", saying=r"none\.bvh")
+
+    def test_folder_instead_of_file(self):
+        self.learn_fails(self.folder, saying=self.folder.name)
+
+    def test_unknown_kind_of_file(self):
+        (self.folder / "clip.xyz").write_text("hello")
+        self.learn_fails(self.folder / "clip.xyz", saying=r"xyz")
+
+
+class BadModels(CommandTest):
+    def test_truncated(self):
+        model = self.model()
+        whole = model.read_bytes()
+        for size in [0, 1, 7, 8, 9, 20, 100, len(whole) // 2, len(whole) - 4, len(whole) - 1]:
+            model.write_bytes(whole[:size])
+            self.fail_with(2, "motion", "info", model, saying=r"dance\.motex")
+
+    def test_altered(self):
+        model = self.model()
+        whole = model.read_bytes()
+        for place in [0, 8, 12, 14, 40, len(whole) // 3, len(whole) // 2, len(whole) - 1]:
+            model.write_bytes(whole[:place] + bytes([whole[place] ^ 0x41]) + whole[place + 1 :])
+            self.fail_with(2, "motion", "info", model, saying=r"dance\.motex")
+
+    def test_foreign(self):
+        model = self.folder / "dance.motex"
+        for text in [b"HIERARCHY\nROOT hips\n", b"\x89PNG\r\n\x1a\n" + bytes(100), bytes(4096)]:
+            model.write_bytes(text)
+            out = self.folder / "x.bvh"
+            self.fail_with(2, "motion", "synthesize", model, "-o", out, "--secs", 1, saying=r"dance\.motex")
+
+    def test_clip_instead_of_model(self):
+        self.fail_with(2, "motion", "info", CLIPS[0], saying="salsa")
+
+    def test_path_through_a_texton_that_does_not_exist(self):
+        out = self.folder / "x.bvh"
+        self.fail_with(2, "motion", "synthesize", self.model(), "-o", out, "--path", "0,99999", saying="99999")
+
+
+class BadTargets(CommandTest):
+    def synthesize_fails(self, code, target, *more, saying=".", **options):
+        arguments = ("motion", "synthesize", self.model(), "-o", target, "--secs", 20, *more)
+        return self.fail_with(code, *arguments, saying=saying, **options)
+
+    def test_missing_folder(self):
+        self.synthesize_fails(2, self.folder / "none" / "x.bvh", saying="none")
+
+    def test_folder_that_takes_no_files(self):
+        self.synthesize_fails(2, "/proc/x.bvh", saying="/proc")
+
+    def test_unknown_format(self):
+        self.synthesize_fails(2, self.folder / "x.xyz", saying="xyz")
+
+    def test_target_is_known_bad_before_learning(self):
+        self.fail_with(2, "motion", "learn", *CLIPS, "-o", self.folder / "none" / "x.motex", saying="none")
+
+    def test_full_device(self):
+        self.model()
+        (self.folder / "x.bvh").symlink_to("/dev/full")
+        self.synthesize_fails(1, self.folder / "x.bvh", "--force", saying="space|full|write")
+
+    def test_file_that_may_not_grow_keeps_the_old_one(self):
+        old = self.folder / "x.bvh"
+        old.write_text("old")
+        self.model()
+
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+        self.synthesize_fails(1, old, "--force", saying="large|write|space", preexec_fn=limit, restore_signals=False)
+        self.assertEqual(old.read_text(), "old")
+
+    def test_full_disk_keeps_the_old_file(self):
+        disk = self.folder / "disk"
+        disk.mkdir()
+        mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", str(disk)]
+        if os.geteuid() != 0 or subprocess.run(mount, stderr=subprocess.DEVNULL, check=False).returncode != 0:
+            self.skipTest("mounting a small disk needs root")
+        self.addCleanup(subprocess.run, ["umount", str(disk)], check=True)
+        old = disk / "x.bvh"
+        old.write_text("old")
+        self.model()
+        self.synthesize_fails(1, old, "--force", saying="space|full")
+        self.assertEqual([path.name for path in disk.iterdir()], ["x.bvh"])
+        self.assertEqual(old.read_text(), "old")
+
+    def test_stdout_full(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            result = run("motion", "info", self.model(), "--json", stdout=full)
+        self.assertEqual(result.returncode, 1, result.stderr)
+
+
+class Interrupted(CommandTest):
+    def interrupt(self, *arguments):
+        """Sends Ctrl-C while the command works; gives up waiting for the right moment after some tries."""
+        before = self.files()
+        for pause in (0.5, 0.25, 0.1, 0.05):
+            with subprocess.Popen([MOTEX, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+                time.sleep(pause)
+                process.send_signal(signal.SIGINT)
+                out, err = process.communicate(timeout=60)
+            if process.returncode != 0:
+                break
+        self.assertEqual(process.returncode, 130, err)
+        self.assertEqual(out, b"")
+        self.assertLessEqual(len(err.splitlines()), 3)
+        self.assertEqual(self.files(), before)
+
+    def test_learning_leaves_the_old_model(self):
+        model = self.model()
+        before = model.read_bytes()
+        self.interrupt("motion", "learn", *(CLIPS * 4), "-o", model, "--force")
+        self.assertEqual(model.read_bytes(), before)
+
+    def test_synthesizing_leaves_nothing(self):
+        self.interrupt("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 36000)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 The motex authors
+# SPDX-License-Identifier: MIT
+"""Habits that every command keeps: streams, exit codes, JSON, seeds, no overwriting."""
+
+import unittest
+
+from command import CLIPS, CommandTest, run, write_cut
+
+COMMANDS = ["learn", "info", "synthesize", "segment", "score", "compare", "features", "view", "convert"]
+
+
+class Usage(CommandTest):
+    def test_help_is_data(self):
+        for words in [(), ("motion",), *(("motion", command) for command in COMMANDS)]:
+            result = self.succeed(*words, "--help")
+            self.assertIn("motex", result.stdout)
+            self.assertEqual(result.stderr, "")
+        for command in COMMANDS:
+            self.assertRegex(run("motion", command, "--help").stdout, "(?i)example", f"{command} --help has no example")
+
+    def test_wrong_usage(self):
+        self.fail_with(2, "motion", "lern", saying="lern|learn")
+        self.fail_with(2, "motion", "learn", saying="(?i)clip|-o|required|usage|--help")
+        self.fail_with(2, "motion", "info", "--no-such-flag", saying="no-such-flag")
+
+    def test_wrong_values(self):
+        model = self.model()
+        for flag, value in [("--secs", "-3"), ("--secs", "nan"), ("--secs", "x"), ("--frames", "-1"), ("--seed", "x")]:
+            arguments = ["motion", "synthesize", model, "-o", self.folder / "x.bvh", flag, value]
+            if flag == "--seed":
+                arguments += ["--secs", "1"]
+            self.fail_with(2, *arguments, saying=flag[2:])
+
+    def test_doctor(self):
+        self.succeed("doctor")
+
+
+class Output(CommandTest):
+    def test_nothing_is_overwritten_without_force(self):
+        model, old = self.model(), self.folder / "x.bvh"
+        old.write_text("old")
+        arguments = ("motion", "synthesize", model, "-o", old, "--secs", 1)
+        self.fail_with(2, *arguments, saying="--force")
+        self.assertEqual(old.read_text(), "old")
+        self.succeed(*arguments, "--force")
+        self.assertNotEqual(old.read_text(), "old")
+
+    def test_learn_does_not_overwrite_either(self):
+        model = self.model()
+        before = model.read_bytes()
+        self.fail_with(2, "motion", "learn", CLIPS[0], "-o", model, saying="--force")
+        self.assertEqual(model.read_bytes(), before)
+
+    def test_dry_run_writes_nothing(self):
+        model = self.model()
+        before = self.files()
+        self.succeed("motion", "synthesize", model, "-o", self.folder / "x.bvh", "--secs", 1, "--dry-run")
+        self.succeed("motion", "learn", CLIPS[0], "-o", self.folder / "y.motex", "--dry-run")
+        self.assertEqual(self.files(), before)
+
+    def test_quiet_says_nothing(self):
+        result = self.succeed("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 1, "--quiet")
+        self.assertEqual((result.stdout, result.stderr), ("", ""))
+
+    def test_no_colour_and_no_progress_off_a_terminal(self):
+        result = self.succeed("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 1)
+        self.assertNotRegex(result.stdout + result.stderr, "[\x1b\r]")
+
+    def test_seed_is_said(self):
+        result = self.succeed("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 1, "--seed", 4711)
+        self.assertIn("4711", result.stdout + result.stderr)
+
+    def test_every_format_is_written(self):
+        model = self.model()
+        for extension in ["bvh", "glb", "csv", "npz", "html"]:
+            target = self.folder / f"x.{extension}"
+            self.succeed("motion", "synthesize", model, "-o", target, "--secs", 2)
+            self.assertGreater(target.stat().st_size, 1000)
+
+    def test_every_written_motion_is_read_again(self):
+        clip = write_cut(CLIPS[0], self.folder / "clip.bvh", 30)
+        for extension in ["bvh", "glb"]:
+            target = self.folder / f"again.{extension}"
+            self.succeed("motion", "convert", clip, "-o", target)
+            self.succeed("motion", "convert", target, "-o", self.folder / f"back_{extension}.bvh")
+
+
+class Json(CommandTest):
+    def has(self, value, *keys):
+        self.assertLessEqual(set(keys), set(value), f"missing: {set(keys) - set(value)}")
+
+    def test_learn(self):
+        value = self.one_json_object("motion", "learn", CLIPS[0], "-o", self.folder / "x.motex")
+        self.has(value, "frames", "clips", "textons", "segments", "log_likelihood", "secs", "peak_rss_mib")
+        trace = value["log_likelihood"]
+        self.assertEqual(trace, sorted(trace), "the objective never falls")
+
+    def test_info(self):
+        self.has(self.one_json_object("motion", "info", self.model()), "textons")
+
+    def test_synthesize(self):
+        out = self.folder / "x.bvh"
+        value = self.one_json_object("motion", "synthesize", self.model(), "-o", out, "--frames", 500, "--seed", 3)
+        self.has(value, "instances", "seed")
+        self.assertEqual(value["seed"], 3)
+        for instance in value["instances"]:
+            self.has(instance, "clip", "start", "length")
+
+    def test_segment(self):
+        self.one_json_object("motion", "segment", self.model(), CLIPS[0])
+
+    def test_score(self):
+        value = self.one_json_object("motion", "score", self.model(), CLIPS[0])
+        self.has(value, "log_likelihood_per_frame", "global_lds_log_likelihood_per_frame")
+
+    def test_compare(self):
+        value = self.one_json_object("motion", "compare", "--reference", CLIPS[0], "--generated", CLIPS[1])
+        self.has(value, "coverage", "global_diversity", "local_diversity", "jerk_ratio", "contact_speed_ratio",
+                 "pose_jump_ratio", "speed_ratio")
+
+    def test_compare_with_itself(self):
+        value = self.one_json_object("motion", "compare", "--reference", CLIPS[0], "--generated", CLIPS[0])
+        for key in ("jerk_ratio", "contact_speed_ratio", "pose_jump_ratio", "speed_ratio"):
+            self.assertAlmostEqual(value[key], 1, places=6)
+        self.assertAlmostEqual(value["global_diversity"], 0, places=6)
+
+
+if __name__ == "__main__":
+    unittest.main()

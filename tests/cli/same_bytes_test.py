@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 The motex authors
+# SPDX-License-Identifier: MIT
+"""The same seed gives the same bytes: run after run, for any number of threads, with g++ and with clang."""
+
+import os
+import unittest
+from pathlib import Path
+
+from command import CLIPS, MOTEX, CommandTest
+
+
+class SameBytes(CommandTest):
+    def made(self, name, binary=MOTEX, jobs=1, seed=5, learn_options=()):
+        """Bytes of the model and of what it dances, as BVH and GLB."""
+        folder = self.folder / name
+        folder.mkdir()
+        model = folder / "dance.motex"
+        self.succeed("motion", "learn", *CLIPS, "-o", model, "--seed", seed, "--jobs", jobs, *learn_options, binary=binary)
+        for out in ("dance.bvh", "dance.glb"):
+            arguments = ("-o", folder / out, "--secs", 30, "--seed", seed, "--jobs", jobs)
+            self.succeed("motion", "synthesize", model, *arguments, binary=binary)
+        return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+    def assert_same(self, a, b):
+        self.assertEqual(set(a), set(b))
+        for name in sorted(a):
+            self.assertTrue(a[name] == b[name], f"{name} differs")
+
+    def test_again_and_with_two_threads(self):
+        self.assert_same(self.made("first"), self.made("second", jobs=2))
+
+    def test_own_basis_with_two_threads(self):
+        own = ("--basis", "own")
+        self.assert_same(self.made("first", learn_options=own), self.made("second", jobs=2, learn_options=own))
+
+    def test_another_seed_dances_otherwise(self):
+        self.assertNotEqual(self.made("first")["dance.bvh"], self.made("second", seed=6)["dance.bvh"])
+
+    def test_other_compiler(self):
+        other = os.environ.get("MOTEX_OTHER_COMPILER", "")
+        if not Path(other).is_file():
+            self.assertFalse(os.environ.get("MOTEX_REQUIRE_ALL"), f"no command of the other compiler at '{other}'")
+            self.skipTest("build it with: scripts/build clang motex_cli")
+        self.assert_same(self.made("first"), self.made("second", binary=other))
+
+
+if __name__ == "__main__":
+    unittest.main()
