@@ -15,9 +15,6 @@ namespace {
 
 constexpr int kMaxJoints = 10'000;
 constexpr double kRadPerDeg = std::numbers::pi / 180;
-// Joints without channels cost memory in every frame and no text: what a file may ask for is bounded by its own size.
-constexpr double kBaseBytes = 256e6, kBytesPerByte = 64;
-
 // What may occur once or thousands of times and is said once.
 struct Oddity {
   int count = 0;
@@ -250,10 +247,7 @@ void BvhReader::check_row_count(Index rows) {
   if (first_wrapped_line_ > 0)
     warn("frames are wrapped over several lines, the first at line " + std::to_string(first_wrapped_line_));
   if (scan_.saw_decimal_comma()) warn("numbers have decimal commas; they are read as decimal points");
-  const double needed = static_cast<double>(rows) * skeleton_.num_joints() * 7 * sizeof(double);
-  if (needed > kBaseBytes + kBytesPerByte * static_cast<double>(num_bytes_))
-    scan_.fail("the file asks for " + std::to_string(static_cast<int>(needed / 1e6)) +
-               " MB by joints without channels; it cannot be meant so");
+  scan_.check_clip_size(static_cast<double>(rows), skeleton_.num_joints());
 }
 
 Clip BvhReader::build_clip() {

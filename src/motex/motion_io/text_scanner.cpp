@@ -13,6 +13,7 @@ namespace motex {
 namespace {
 
 constexpr double kLargestNumber = 1e12;
+constexpr double kBaseBytes = 256e6, kBytesPerByte = 64;
 
 bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
@@ -38,6 +39,13 @@ TextScanner::TextScanner(std::string_view text, std::string file) : text_(text),
 
 void TextScanner::fail_at(std::int64_t line, const std::string& message) const {
   throw ParseError(file_, ParseError::Unit::kLine, line, message);
+}
+
+void TextScanner::check_clip_size(double num_frames, double num_joints) const {
+  const double needed = num_frames * num_joints * 7 * sizeof(double);
+  if (needed > kBaseBytes + kBytesPerByte * static_cast<double>(text_.size()))
+    fail("the file asks for " + std::to_string(static_cast<std::int64_t>(needed / 1e6)) +
+         " MB by joints that have no channels; it cannot be meant so");
 }
 
 void TextScanner::skip_space() {
@@ -104,6 +112,17 @@ double TextScanner::parse_number(std::string_view text, std::string_view what) {
   if (std::abs(value) > kLargestNumber) fail(in_quotes(text) + " is too large to be meant");
   saw_decimal_comma_ = saw_decimal_comma_ || comma;
   return value;
+}
+
+std::vector<std::string_view> split_words(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t i = 0; i < line.size();) {
+    const std::size_t start = i;
+    while (i < line.size() && !is_space(line[i])) ++i;
+    if (i > start) words.push_back(line.substr(start, i - start));
+    while (i < line.size() && is_space(line[i])) ++i;
+  }
+  return words;
 }
 
 bool same_word(std::string_view a, std::string_view b) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace motex {
 
@@ -34,6 +35,9 @@ class TextScanner {
   std::int64_t line() const { return line_; }
   bool saw_decimal_comma() const { return saw_decimal_comma_; }
   const std::string& file() const { return file_; }
+  /// Fails when a clip of that size takes more memory than a text of this length can mean (joints without channels cost
+  /// memory in every frame and no text).
+  void check_clip_size(double num_frames, double num_joints) const;
   [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
   [[noreturn]] void fail_at(std::int64_t line, const std::string& message) const;
 
@@ -46,6 +50,8 @@ class TextScanner {
   bool saw_decimal_comma_ = false;
 };
 
+/// The words of a line.
+std::vector<std::string_view> split_words(std::string_view line);
 /// Equal when ASCII case is ignored.
 bool same_word(std::string_view a, std::string_view b);
 /// For messages: in quotes, unprintable bytes as '?', at most 40 characters.
