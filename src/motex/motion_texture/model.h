@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "motex/lds/lds.h"
+#include "motex/lds/statistics.h"
+#include "motex/markov/transition_matrix.h"
+#include "motex/motion/contacts.h"
+#include "motex/motion_texture/features.h"
+#include "motex/motion_texture/learn_options.h"
+
+namespace motex {
+
+/// Where the states of a texton live: y = mean + basis · x + what lies outside.
+struct Subspace {
+  Vector mean;   ///< D
+  Matrix basis;  ///< D × d, orthonormal columns
+};
+
+/// Consecutive frames of one clip that were learned from.
+struct Run {
+  int clip_idx = 0;
+  Index clip_start = 0;  ///< first frame in the clip
+  Index row = 0;         ///< first row in MotionTexture::corpus
+  Index length = 0;
+};
+
+/// One occurrence of a texton in the examples (the paper's segment): frames start … start + length − 1.
+struct Instance {
+  int texton = 0;
+  int run_idx = 0;
+  Index row = 0;  ///< first row in MotionTexture::corpus
+  Index length = 0;
+};
+
+/// A texton [MT02 3.2]: second-order linear dynamics in a subspace, and the key poses of its instances.
+struct Texton {
+  Lds dynamics;              ///< fitted with the learner's prior
+  LdsStatistics statistics;  ///< of its own frames, so that other priors can be tried
+  std::vector<int> instances;
+};
+
+/// The learned model: read-only for synthesis, playback and the studio.
+struct MotionTexture {
+  FeatureSpace features;
+  std::vector<std::string> clip_names;
+  std::vector<Index> clip_lengths;  ///< frames as read
+  FrameMatrixF corpus;              ///< frames × D: weighted features of all runs, one after another
+  std::vector<Run> runs;
+  std::vector<Subspace> subspaces;  ///< one (shared basis), or one a texton (own basis)
+  std::vector<Texton> textons;
+  std::vector<Instance> instances;  ///< in the order of corpus rows
+  TransitionMatrix transitions;     ///< between textons, the jumps that close dead ends included
+  double outside_deviation = 1;     ///< s, cm: deviation of what lies outside the subspace, per dimension
+  Subspace global_subspace;         ///< of the one global LDS, kept for score
+  LdsStatistics global_statistics;  ///< its moments: also the prior of every texton with a shared basis
+  FootModel feet;
+  LearnOptions options;
+
+  const Subspace& subspace(int texton) const {
+    return subspaces[subspaces.size() == 1 ? 0 : static_cast<std::size_t>(texton)];
+  }
+  double frame_time_secs() const { return features.frame_time_secs; }
+};
+
+}  // namespace motex
