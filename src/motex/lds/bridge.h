@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <map>
 #include <vector>
 
 #include "motex/lds/lds.h"
@@ -12,9 +14,12 @@ namespace motex {
 /// minimises Σ_t |B⁻¹(x_t − A₁ x_{t−1} − A₂ x_{t−2} − D) − ε_t|². With ε ~ N(0, I) it is an exact sample of the system
 /// given both ends.
 ///
-/// The normal equations are block-banded Toeplitz, so their Cholesky factor does not depend on the length: block k is
-/// computed once, when a path first needs it, and from the block on where the factor no longer changes (relative 1e-9) one
-/// block serves all. Then a path of l frames costs 4 l d² multiplications: a free run, and a correction swept back from the end.
+/// In whitened coordinates z = B⁻¹x with s_t = [z_t; z_{t−1}], Φ the companion matrix and n = l − 2 steps, the minimiser
+/// is the free run of ε plus the response to the smallest extra noise that leads to the end:
+///
+///   P_n λ_l = s_l − s_l(free),   P_n = Σ_{k<n} Φᵏ Q Φᵏᵀ,   λ_{t−1} = Φᵀ λ_t,   ε'_t = ε_t + upper half of λ_t
+///
+/// P_n is made by doubling and its Cholesky factor kept for each length; then a path costs 6.5 l d² multiplications.
 class Bridge {
  public:
   explicit Bridge(const Lds& lds);
@@ -23,27 +28,22 @@ class Bridge {
   /// noise: (l − 2) × d, the ε of rows 2 … l−1.
   void solve(Eigen::Ref<FrameMatrix> states, const Eigen::Ref<const FrameMatrix>& noise);
 
-  /// Blocks held; stops growing when the factor has converged.
-  Index num_blocks() const { return static_cast<Index>(blocks_.size()); }
-
  private:
-  struct Block {
-    Matrix lower_inverse;  ///< L_kk⁻¹
-    Matrix below1;         ///< L_{k,k−1}
-    Matrix below2;         ///< L_{k,k−2}
-    Matrix back1, back2;   ///< L_kk⁻ᵀ L_{k+1,k}ᵀ and L_kk⁻ᵀ L_{k+2,k}ᵀ
+  struct Steps {
+    Matrix power;    ///< Φⁿ
+    Matrix gramian;  ///< P_n
   };
-  const Block& block(Index k);
-  void append_block();
+  Steps join(const Steps& a, const Steps& b) const;
+  const Eigen::LLT<Matrix>& factor(Index num_steps);
+  void run(Index num_steps, const Eigen::Ref<const FrameMatrix>& noise, bool add_multipliers);
 
+  static constexpr std::size_t kMostFactors = 64;
   Index d_;
-  Matrix transition_, noise_chol_;
-  Vector offset_;
-  Matrix g0_, g1_, g2_;  ///< B⁻¹, −B⁻¹A₁, −B⁻¹A₂
-  Matrix h0_, h1_, h2_;  ///< blocks of the normal matrix on and below the diagonal
-  std::vector<Block> blocks_;
-  bool converged_ = false;
-  Vector r0_, r1_, y0_, y1_, x_;  ///< work space
+  Matrix noise_chol_, a1_, a2_;  ///< B, B⁻¹A₁B, B⁻¹A₂B
+  Vector offset_;                ///< B⁻¹D
+  std::vector<Steps> doubled_;   ///< n = 1, 2, 4, …
+  std::map<Index, Eigen::LLT<Matrix>> factors_;
+  Matrix z_, multipliers_;  ///< work space: d × l and 2d × l, a column a frame
 };
 
 }  // namespace motex

@@ -164,7 +164,6 @@ TEST(Bridge, EqualsDenseLeastSquaresForEveryLength) {
     bridge.solve(states, noise);
     EXPECT_LT((states - expected).norm(), 1e-7 * (1 + expected.norm())) << l;
   }
-  EXPECT_LT(bridge.num_blocks(), 140);  // it converged
 }
 
 TEST(Bridge, ReproducesAPathFromItsOwnEndsAndNoise) {
