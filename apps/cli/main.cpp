@@ -1,3 +1,121 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-int main() { return 2; }
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "closest.h"
+#include "commands.h"
+#include "help.h"
+#include "interrupt.h"
+#include "motex/core/error.h"
+#include "parse.h"
+
+namespace motex::cli {
+namespace {
+
+CommandTable make_table() {
+  return {
+      doctor(),
+  };
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
+bool asks_for_help(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), std::find(words.begin(), words.end(), "--"),
+                     [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+/// The command that the first words name; they are taken off.
+const Command& find_command(const CommandTable& table, std::vector<std::string>& words) {
+  std::vector<std::string> known{"completion"};
+  for (std::size_t num_words : {2U, 1U}) {
+    if (words.size() < num_words) continue;
+    const std::string name = joined({words.begin(), words.begin() + static_cast<std::ptrdiff_t>(num_words)});
+    for (const Command& command : table) {
+      if (command.name != name) continue;
+      words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(num_words));
+      return command;
+    }
+  }
+  std::vector<std::string> verbs;
+  for (const Command& command : table) {
+    known.push_back(command.name.substr(0, command.name.find(' ')));
+    if (command.name.starts_with(words[0] + " ")) verbs.push_back(command.name.substr(words[0].size() + 1));
+  }
+  if (verbs.empty())
+    throw InvalidInput("there is no command '" + words[0] + "'" + did_you_mean(words[0], known) +
+                       " (motex --help lists all)");
+  if (words.size() == 1) throw InvalidInput("motex " + words[0] + " what? " + enumerate(verbs, "or"));
+  throw InvalidInput("there is no command '" + words[0] + " " + words[1] + "'" + did_you_mean(words[1], verbs) +
+                     " (motex " + words[0] + " --help lists all)");
+}
+
+/// True when the words ask for text that needs no command.
+bool print_text(const CommandTable& table, const std::vector<std::string>& words, Session& session) {
+  const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h" || word == "help"; };
+  if (is_help(words[0])) {
+    session.result({}, help_overview(table, ""));
+  } else if (words[0] == "--version") {
+    session.result({}, "motex " MOTEX_VERSION "\n");
+  } else if (words[0] == "completion" && words.size() == 2 && words[1] == "bash") {
+    session.result({}, bash_completion(table));
+  } else if (words[0] == "completion") {
+    if (!asks_for_help(words)) throw InvalidInput("usage: motex completion bash");
+    session.result({}, "usage: motex completion bash\n\nExample\n  source <(motex completion bash)\n");
+  } else if (words.size() == 2 && is_help(words[1]) &&
+             std::any_of(table.begin(), table.end(),
+                         [&](const Command& command) { return command.name.starts_with(words[0] + " "); })) {
+    session.result({}, help_overview(table, words[0]));
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void run(std::vector<std::string> words, Session& session) {
+  const CommandTable table = make_table();
+  if (words.empty()) throw InvalidInput("motex what? motex --help lists the commands");
+  if (!print_text(table, words, session)) {
+    const Command& command = find_command(table, words);
+    const Arguments arguments = arguments_of(command, session.flags);
+    if (asks_for_help(words)) {
+      session.result({}, help_page(command, arguments));
+    } else {
+      parse(words, arguments);
+      watch_interrupts();
+      command.run(session);
+    }
+  }
+  session.finish();
+}
+
+/// The one catch of this door: kind of failure → exit code.
+int run_and_report(const std::vector<std::string>& words) {
+  Session session;
+  try {
+    run(words, session);
+    return 0;
+  } catch (const Cancelled&) {
+    session.fail("interrupted; nothing was written");
+    return 130;
+  } catch (const InvalidInput& error) {
+    session.fail(error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    session.fail("out of memory");
+  } catch (const std::exception& error) {
+    session.fail(error.what());
+  }
+  return 1;
+}
+
+}  // namespace
+}  // namespace motex::cli
+
+int main(int argc, char** argv) { return motex::cli::run_and_report({argv + std::min(argc, 1), argv + argc}); }

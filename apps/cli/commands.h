@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "command.h"
+
+/// Every command has a file of its own name.
+namespace motex::cli {
+
+Command motion_learn();
+Command motion_info();
+Command motion_synthesize();
+Command motion_segment();
+Command motion_score();
+Command motion_compare();
+Command motion_features();
+Command motion_view();
+Command motion_convert();
+Command doctor();
+
+}  // namespace motex::cli

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+#include "commands.h"
+#include "motex/core/gemm.h"
+#include "motex/core/matrix.h"
+#include "motex/core/parallel.h"
+#include "text_table.h"
+
+namespace motex::cli {
+namespace {
+
+#if defined(__clang__)
+constexpr const char* kCompiler = "clang " __clang_version__;
+#else
+constexpr const char* kCompiler = "g++ " __VERSION__;
+#endif
+
+/// Path of the first of these programs on PATH, or "".
+std::string find_program(const std::vector<std::string>& names) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    for (const std::string& name : names) {
+      const auto candidate = std::filesystem::path(folder) / name;
+      std::error_code ec;
+      if (std::filesystem::is_regular_file(candidate, ec)) return candidate.string();
+    }
+  return "";
+}
+
+std::string eigen_version() {
+  return std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
+         std::to_string(EIGEN_MINOR_VERSION);
+}
+
+struct Doctor {
+  void declare(Arguments&) {}
+  void run(Session& session) {
+    const std::string browser =
+        find_program({"chromium", "chromium-browser", "google-chrome", "firefox", "microsoft-edge"});
+    Value object;
+    object["motex"] = MOTEX_VERSION;
+    object["compiler"] = kCompiler;
+    object["eigen"] = eigen_version();
+    object["blas"] = gemm_backend();
+    object["cores"] = num_threads(0);
+    object["browser"] = browser.empty() ? Value() : Value(browser);
+    session.result(object,
+                   text_pairs({{"motex", MOTEX_VERSION},
+                               {"compiler", kCompiler},
+                               {"Eigen", eigen_version()},
+                               {"BLAS", gemm_backend()},
+                               {"cores", std::to_string(num_threads(0))},
+                               {"browser", browser.empty() ? "none found: pages open in any other" : browser}}));
+  }
+};
+
+}  // namespace
+
+Command doctor() {
+  return make_command<Doctor>(
+      {"doctor", "versions, cores, formats, and what is missing", "", "motex doctor\nmotex doctor --json"});
+}
+
+}  // namespace motex::cli

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "session.h"
+
+namespace motex::cli {
+
+/// ".bvh" of "a/B.BVH"; "" when there is none.
+std::string extension_of(const std::string& path);
+
+/// To be called before long work: throws InvalidInput when the extension is none of the known ones (".bvh", …), the
+/// file exists and --force was not given, or nothing can be written there.
+void check_output(const std::string& path, const std::vector<std::string>& extensions, const Session& session);
+/// The same for several, which must differ.
+void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& extensions,
+                   const Session& session);
+
+}  // namespace motex::cli
