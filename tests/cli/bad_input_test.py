@@ -130,6 +130,11 @@ class BadTargets(CommandTest):
 
 
 class Interrupted(CommandTest):
+    def setUp(self):
+        super().setUp()
+        # A background job inherits "ignore Ctrl-C", which motex obeys; a handled signal is passed on as the default.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
     def interrupt(self, *arguments):
         """Sends Ctrl-C while the command works; gives up waiting for the right moment after some tries."""
         before = self.files()
