@@ -3,6 +3,7 @@
 #include "motex/motion_io/tables.h"
 
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace motex {
 namespace {
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr int kDigits = 9;
+constexpr double kSteps = 1e9;  // of the last decimal written
 
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
@@ -24,7 +25,8 @@ std::string cell(const std::string& text) {
 
 void append(std::string& text, double value) {
   char buffer[40];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, kDigits).ptr);
+  const double rounded = std::round(value * kSteps) / kSteps + 0.0;  // + 0.0: no −0
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, rounded).ptr);
 }
 
 }  // namespace
@@ -42,10 +44,7 @@ std::string write_csv_bytes(const Clip& clip) {
   }
   text += '\n';
   for (Index t = 0; t < clip.num_frames(); ++t) {
-    char buffer[40];
-    text += std::to_string(t) + ",";
-    text.append(buffer,
-                std::to_chars(buffer, buffer + sizeof buffer, static_cast<double>(t) * clip.frame_time_secs).ptr);
+    append(text += std::to_string(t) + ",", static_cast<double>(t) * clip.frame_time_secs);
     for (int j = 0; j < clip.skeleton.num_joints(); ++j) {
       const auto& own = channels[static_cast<std::size_t>(j)];
       if (own.empty()) continue;
