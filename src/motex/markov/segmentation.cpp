@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/markov/segmentation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "motex/core/error.h"
+#include "motex/markov/sliding_maximum.h"
+
+namespace motex {
+namespace {
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+constexpr float kLargestFloat = std::numeric_limits<float>::max();
+
+double sum_scored_frames(const SegmentationInput& input, const Segment& segment) {
+  double sum = 0;
+  for (Index t = segment.start + input.options.num_start_frames; t < segment.start + segment.length; ++t) {
+    sum += static_cast<double>(input.emissions(t, segment.state));
+  }
+  return sum;
+}
+
+double start_density(const SegmentationInput& input, Index frame) {
+  return input.start_log_density.empty() ? 0 : input.start_log_density[static_cast<std::size_t>(frame)];
+}
+
+[[noreturn]] void throw_not_a_density(const char* what, Index frame) {
+  throw NumericalFailure("segmentation: " + std::string(what) + " at frame " + std::to_string(frame) +
+                         " is NaN or +infinity; a log-likelihood is a number or -infinity");
+}
+
+// A sequence too short for the recursion is one segment of the best state.
+SegmentationReport segment_as_one(const SegmentationInput& input) {
+  SegmentationReport report;
+  const Segment whole{0, 0, input.emissions.rows()};
+  for (Index i = 0; i < input.emissions.cols(); ++i) {
+    Segment candidate = whole;
+    candidate.state = static_cast<int>(i);
+    const double score = segment_score(input, candidate);
+    if (!(score < std::numeric_limits<double>::infinity())) throw_not_a_density("the likelihood of a segment", 0);
+    if (score > report.score) {
+      report.score = score;
+      report.segments = {candidate};
+    }
+  }
+  return report;
+}
+
+// The forward pass. Rows of N numbers, one a state; names as in the header.
+class Recursion {
+ public:
+  explicit Recursion(const SegmentationInput& input);
+  SegmentationReport run();
+
+ private:
+  // A start whose best predecessor is reached by a counted transition that beats every uncounted one.
+  struct Winner {
+    std::int32_t state;
+    std::int32_t predecessor;
+    double end;
+  };
+
+  void find_best_ends(Index b);
+  void find_best_uncounted(Index b);
+  void find_winners(Index b);
+  void open_candidates(Index b);
+  void add_frame(Index t);
+  void add_odd_frame(Index t, const float* F);
+  void admit_candidates(Index b);
+  void close_frame(Index t);
+  SegmentationReport trace_back() const;
+  int predecessor(Index b, int state) const;
+  double* candidates(Index b) { return &candidates_[static_cast<std::size_t>(b % min_length_ * N_)]; }
+
+  const SegmentationInput& input_;
+  const LogTransitions transitions_;
+  const Index T_, N_, min_length_, num_start_frames_;
+  const bool has_prior_;
+  std::vector<double> S_, G_;
+  std::vector<double> candidates_;  // T_min × N ring of E_i(b) + init(b) − S_i(b+s−1) that are still too short
+  SlidingMaximum H_;
+  std::vector<std::int32_t> starts_;    // T × N: start of the best last segment that ends at t
+  std::vector<double> best_uncounted_;  // T: max_l [G_l(b−1) + base_l], and that l
+  std::vector<std::int32_t> uncounted_predecessor_;
+  std::vector<Winner> winners_;
+  std::vector<std::size_t> winners_begin_;  // T + 1
+  std::vector<Index> last_impossible_;      // N, empty while every emission is finite
+};
+
+Index window_of(const SegmentationInput& input) {
+  const SegmentOptions& options = input.options;
+  const bool limited = options.max_length > 0 && options.max_length < input.emissions.rows();
+  return limited ? options.max_length - options.min_length + 1 : 0;
+}
+
+Recursion::Recursion(const SegmentationInput& input)
+    : input_(input),
+      transitions_(input.transitions.log_transitions()),
+      T_(input.emissions.rows()),
+      N_(input.emissions.cols()),
+      min_length_(input.options.min_length),
+      num_start_frames_(input.options.num_start_frames),
+      has_prior_(input.transitions.prior_count() > 0),
+      H_(N_, window_of(input)) {
+  const auto n = static_cast<std::size_t>(N_), frames = static_cast<std::size_t>(T_);
+  S_.assign(n, 0);
+  G_.assign(n, kImpossible);
+  candidates_.resize(static_cast<std::size_t>(min_length_) * n);
+  starts_.resize(frames * n);
+  best_uncounted_.assign(frames, kImpossible);
+  uncounted_predecessor_.assign(frames, -1);
+  winners_begin_.assign(frames + 1, 0);
+}
+
+SegmentationReport Recursion::run() {
+  for (Index t = 0; t < T_; ++t) {
+    find_best_ends(t);
+    if (num_start_frames_ == 0) open_candidates(t);
+    add_frame(t);
+    if (num_start_frames_ > 0 && t + 1 >= num_start_frames_) open_candidates(t + 1 - num_start_frames_);
+    if (t + 1 >= min_length_) admit_candidates(t + 1 - min_length_);
+    close_frame(t);
+  }
+  return trace_back();
+}
+
+// E_i(b): one value for all states that nothing counted leads to, and the winners.
+void Recursion::find_best_ends(Index b) {
+  const auto k = static_cast<std::size_t>(b);
+  if (b == 0) {
+    best_uncounted_[k] = 0;
+  } else {
+    if (has_prior_) find_best_uncounted(b);
+    find_winners(b);
+  }
+  winners_begin_[k + 1] = winners_.size();
+}
+
+void Recursion::find_best_uncounted(Index b) {
+  constexpr Index kLanes = 8;  // independent maxima, which vectorise
+  const double* G = G_.data();
+  const double* base = transitions_.base.data();
+  std::array<double, kLanes> lanes;
+  lanes.fill(kImpossible);
+  Index i = 0;
+  for (; i + kLanes <= N_; i += kLanes) {
+    for (Index k = 0; k < kLanes; ++k) {
+      const double end = G[i + k] + base[i + k];
+      const auto lane = static_cast<std::size_t>(k);
+      lanes[lane] = end > lanes[lane] ? end : lanes[lane];
+    }
+  }
+  double best = *std::max_element(lanes.begin(), lanes.end());
+  for (; i < N_; ++i) best = std::max(best, G[i] + base[i]);
+  Index l = 0;
+  while (l + 1 < N_ && G[l] + base[l] != best) ++l;
+  best_uncounted_[static_cast<std::size_t>(b)] = best;
+  uncounted_predecessor_[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(l);
+}
+
+void Recursion::find_winners(Index b) {
+  const double uncounted = best_uncounted_[static_cast<std::size_t>(b)];
+  for (int i = 0; i < N_; ++i) {
+    Winner winner{i, -1, uncounted};
+    for (const auto& entry : transitions_.column(i)) {
+      const double end = G_[static_cast<std::size_t>(entry.state)] + entry.log_prob;
+      if (end > winner.end) winner = {i, entry.state, end};
+    }
+    if (winner.predecessor >= 0) winners_.push_back(winner);
+  }
+}
+
+// E_i(b) + init(b) − S_i(b+s−1), once that sum is known.
+void Recursion::open_candidates(Index b) {
+  const auto k = static_cast<std::size_t>(b);
+  const double init = start_density(input_, b);
+  if (!(init < std::numeric_limits<double>::infinity())) throw_not_a_density("the start density", b);
+  double* __restrict row = candidates(b);
+  const double* __restrict S = S_.data();
+  const double uncounted = best_uncounted_[k] + init;
+  for (Index i = 0; i < N_; ++i) row[i] = uncounted - S[i];
+  for (std::size_t w = winners_begin_[k]; w < winners_begin_[k + 1]; ++w) {
+    row[winners_[w].state] = winners_[w].end + init - S[winners_[w].state];
+  }
+}
+
+void Recursion::add_frame(Index t) {
+  const float* __restrict F = input_.emissions.data() + t * input_.emissions.outerStride();
+  int num_odd = 0;
+  for (Index i = 0; i < N_; ++i) num_odd += std::abs(F[i]) <= kLargestFloat ? 0 : 1;
+  if (num_odd > 0) return add_odd_frame(t, F);
+  double* __restrict S = S_.data();
+  for (Index i = 0; i < N_; ++i) S[i] += static_cast<double>(F[i]);
+}
+
+// −∞ stays out of the sums, which could not be undone; it ends all that the state had begun instead.
+void Recursion::add_odd_frame(Index t, const float* F) {
+  if (last_impossible_.empty()) last_impossible_.assign(static_cast<std::size_t>(N_), -1);
+  for (Index i = 0; i < N_; ++i) {
+    if (!(F[i] <= kLargestFloat)) throw_not_a_density("the emission", t);
+    const auto k = static_cast<std::size_t>(i);
+    if (F[i] >= -kLargestFloat) {
+      S_[k] += static_cast<double>(F[i]);
+    } else {
+      H_.forget(i);
+      last_impossible_[k] = t;
+    }
+  }
+}
+
+// Segments from b are now long enough to end.
+void Recursion::admit_candidates(Index b) {
+  double* row = candidates(b);
+  if (!last_impossible_.empty()) {
+    for (Index i = 0; i < N_; ++i) {
+      if (b + num_start_frames_ <= last_impossible_[static_cast<std::size_t>(i)]) row[i] = kImpossible;
+    }
+  }
+  H_.push(row);
+}
+
+void Recursion::close_frame(Index t) {
+  const double* __restrict S = S_.data();
+  const double* __restrict H = H_.values().data();
+  double* __restrict G = G_.data();
+  for (Index i = 0; i < N_; ++i) G[i] = S[i] + H[i];
+  std::copy(H_.positions().begin(), H_.positions().end(), starts_.begin() + t * N_);
+}
+
+int Recursion::predecessor(Index b, int state) const {
+  const auto k = static_cast<std::size_t>(b);
+  const auto first = winners_.begin() + static_cast<std::ptrdiff_t>(winners_begin_[k]);
+  const auto last = winners_.begin() + static_cast<std::ptrdiff_t>(winners_begin_[k + 1]);
+  const auto place = std::lower_bound(first, last, state, [](const Winner& w, int s) { return w.state < s; });
+  return place != last && place->state == state ? place->predecessor : uncounted_predecessor_[k];
+}
+
+SegmentationReport Recursion::trace_back() const {
+  SegmentationReport report;
+  const auto best = std::max_element(G_.begin(), G_.end());
+  if (*best == kImpossible) return report;
+  report.score = *best;
+  auto state = static_cast<int>(best - G_.begin());
+  for (Index end = T_;;) {
+    const Index b = starts_[static_cast<std::size_t>((end - 1) * N_ + state)];
+    report.segments.push_back({state, b, end - b});
+    if (b == 0) break;
+    state = predecessor(b, state);
+    end = b;
+  }
+  std::reverse(report.segments.begin(), report.segments.end());
+  return report;
+}
+
+}  // namespace
+
+void check_segmentation_input(const SegmentationInput& input) {
+  const SegmentOptions& options = input.options;
+  const Index T = input.emissions.rows(), N = input.emissions.cols();
+  const auto fail = [](const std::string& message) { throw InvalidInput("segmentation: " + message); };
+  if (options.min_length < 1) fail("min_length must be at least 1 frame");
+  if (options.max_length != 0 && options.max_length < options.min_length) fail("max_length is less than min_length");
+  if (options.num_start_frames < 0 || options.num_start_frames > options.min_length) {
+    fail("num_start_frames must lie in 0 … min_length");
+  }
+  if (N < 1 || input.transitions.num_states() != N) {
+    fail(std::to_string(N) + " columns of emissions, but " + std::to_string(input.transitions.num_states()) +
+         " states in the transition matrix");
+  }
+  if (!input.start_log_density.empty() && static_cast<Index>(input.start_log_density.size()) != T) {
+    fail(std::to_string(T) + " frames of emissions, but " + std::to_string(input.start_log_density.size()) +
+         " start densities");
+  }
+  if (T <= options.num_start_frames) {
+    fail("a sequence of " + std::to_string(T) + " frames is too short; it needs at least " +
+         std::to_string(options.num_start_frames + 1));
+  }
+  if (T > std::numeric_limits<std::int32_t>::max()) fail("a sequence may have at most 2147483647 frames");
+}
+
+SegmentationReport segment_sequence(const SegmentationInput& input) {
+  check_segmentation_input(input);
+  if (input.emissions.rows() < input.options.min_length) return segment_as_one(input);
+  return Recursion(input).run();
+}
+
+double segment_score(const SegmentationInput& input, const Segment& segment) {
+  return start_density(input, segment.start) + sum_scored_frames(input, segment);
+}
+
+double score_segmentation(const SegmentationInput& input, std::span<const Segment> segments) {
+  check_segmentation_input(input);
+  const SegmentOptions& options = input.options;
+  const Index T = input.emissions.rows();
+  double score = 0;
+  Index end = 0;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const Segment& segment = segments[k];
+    const std::string where = "segmentation: segment " + std::to_string(k);
+    if (segment.start != end) throw InvalidInput(where + " does not start where the one before it ends");
+    if (segment.state < 0 || segment.state >= input.emissions.cols()) throw InvalidInput(where + " has no such state");
+    const bool is_short = segment.length < std::min(options.min_length, T);
+    const bool is_long = options.max_length > 0 && segment.length > options.max_length;
+    if (is_short || is_long || segment.length > T - end) {
+      throw InvalidInput(where + " is " + std::to_string(segment.length) + " frames long, which is not allowed");
+    }
+    score += segment_score(input, segment);
+    if (k > 0) score += input.transitions.log_prob(segments[k - 1].state, segment.state);
+    end += segment.length;
+  }
+  if (end != T)
+    throw InvalidInput("segmentation: segments end at frame " + std::to_string(end) + " of " + std::to_string(T));
+  return score;
+}
+
+}  // namespace motex
