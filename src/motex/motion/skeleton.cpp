@@ -71,12 +71,14 @@ std::string skeleton_difference(const Skeleton& a, const Skeleton& b) {
 
 double metres_per_unit_or_guess(const Skeleton& skeleton) {
   if (skeleton.metres_per_unit > 0) return skeleton.metres_per_unit;
-  // Standing height = longest chain of offsets below a root + longest chain above it.
+  // Standing height = way along the bones from the lowest tip to the highest; a hand may be farther and does not count.
   std::vector<double> reach(skeleton.joints.size(), 0);
   std::vector<double> rise(skeleton.joints.size(), 0);
-  double down = 0, up = 0;
+  double lowest = 0, highest = 0, down = 0, up = 0, longest = 0;
   const auto consider = [&](double length, double height) {
-    (height < 0 ? down : up) = std::max(height < 0 ? down : up, length);
+    longest = std::max(longest, length);
+    if (height < lowest) lowest = height, down = length;
+    if (height > highest) highest = height, up = length;
   };
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
@@ -90,7 +92,8 @@ double metres_per_unit_or_guess(const Skeleton& skeleton) {
     const auto p = static_cast<std::size_t>(site.parent_idx);
     consider(reach[p] + site.offset.norm(), rise[p] + site.offset.y());
   }
-  const double height = down + up;
+  // A rest pose that lies flat tells only the longest limb.
+  const double height = highest - lowest > 0.2 * longest ? down + up : longest;
   return height > 0 ? 1.7 / height : 1.0;
 }
 

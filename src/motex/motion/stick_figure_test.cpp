@@ -53,5 +53,16 @@ TEST(StickFigure, TravelsAtItsSpeedAndRepeatsWithItsSeed) {
   EXPECT_NEAR(a.clip.translation(599, 0).z(), 100 * 599 / 60.0, 1e-9);
 }
 
+TEST(StickFigure, HeightIsGuessedFromHeadToToeAndNotToTheHand) {
+  Skeleton skeleton = stick_figure_skeleton();
+  EXPECT_EQ(metres_per_unit_or_guess(skeleton), 0.01);
+  skeleton.metres_per_unit = 0;
+  const double guess = metres_per_unit_or_guess(skeleton);
+  EXPECT_NEAR(guess, 0.01, 0.0015);
+  // Longer arms, held up no higher than the head, do not make a taller body.
+  skeleton.joints[static_cast<std::size_t>(skeleton.find("LeftForeArm"))].offset = Vector3(90, 5, 0);
+  EXPECT_EQ(metres_per_unit_or_guess(skeleton), guess);
+}
+
 }  // namespace
 }  // namespace motex
