@@ -3,6 +3,7 @@
 #include "motex/lds/statistics.h"
 
 #include "motex/core/error.h"
+#include "motex/core/gemm.h"
 
 namespace motex {
 
@@ -13,7 +14,8 @@ void LdsStatistics::add(const FrameMatrix& states, Index first, Index length) {
   FrameMatrix u(length, 3 * d + 1);
   for (Index lag = 0; lag < 3; ++lag) u.middleCols(lag * d, d) = states.middleRows(first - lag, length);
   u.col(3 * d).setOnes();
-  moments.noalias() += u.transpose() * u;
+  const Index n = u.cols();
+  gemm(true, false, n, n, length, 1.0, u.data(), n, u.data(), n, 1.0, moments.data(), n);
 }
 
 LdsStatistics& LdsStatistics::operator+=(const LdsStatistics& other) {

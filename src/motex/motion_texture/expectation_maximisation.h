@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "motex/motion_texture/emissions.h"
+#include "motex/motion_texture/texton_fitter.h"
+
+namespace motex {
+
+/// Hard EM [MT02 4]: E = the most likely segmentation, M = textons and transitions at their maximum a posteriori.
+/// Each step maximises one objective over its own unknowns, so the objective never falls:
+///
+///   J = Σ_t F_{l(t)}(t) + Σ_k log M_{l(k−1) l(k)} + Σ_i log p(A_i, B_iB_iᵀ) + log p(M)
+///
+/// Only textons whose segments changed are fitted and evaluated again.
+class ExpectationMaximisation {
+ public:
+  ExpectationMaximisation(const Corpus& corpus, const TextonFitter& fitter, const LearnOptions& options, Index min_frames,
+                          Index max_frames, Segmentation start);
+
+  /// One M-step and one E-step. Returns J after it. converged() when the segmentation did not change.
+  double iterate(const JobContext& job);
+  bool converged() const { return converged_; }
+
+  const Segmentation& segments() const { return segments_; }
+  const std::vector<TextonFit>& textons() const { return fits_; }
+  double outside_deviation() const { return deviation_; }
+
+ private:
+  void maximise(const JobContext& job);
+  double expect(const JobContext& job);
+  TextonFit refit(int texton, const std::vector<LabelledSegment>& own) const;
+  double contribution(const TextonFit& fit) const;
+  double choose_deviation() const;
+  std::vector<std::vector<LabelledSegment>> by_texton() const;
+
+  const Corpus& corpus_;
+  const TextonFitter& fitter_;
+  LearnOptions options_;
+  Index min_frames_, max_frames_;
+  Segmentation segments_;
+  std::vector<std::vector<LabelledSegment>> fitted_to_;  ///< segments that each texton was last fitted to
+  std::vector<TextonFit> fits_;
+  double deviation_ = 1;
+  std::unique_ptr<EmissionBank> bank_;
+  FrameMatrixF emissions_;
+  TransitionMatrix transitions_;
+  bool converged_ = false;
+};
+
+}  // namespace motex
