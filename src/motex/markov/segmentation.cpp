@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "motex/core/error.h"
@@ -58,23 +59,26 @@ class Recursion {
   SegmentationReport run();
 
  private:
-  // A start whose best predecessor is reached by a counted transition that beats every uncounted one.
+  struct BestEnd {
+    double score = kImpossible;
+    std::int32_t state = -1;
+  };
+  void find_best_ends(Index b);
+  // A start that is best reached by a counted transition.
   struct Winner {
     std::int32_t state;
     std::int32_t predecessor;
-    double end;
   };
-
-  void find_best_ends(Index b);
   void find_best_uncounted(Index b);
-  void find_winners(Index b);
+  bool improve_by_counted(double uncounted, double* E);
+  void keep_winners();
+  int predecessor(Index b, int state) const;
   void open_candidates(Index b);
   void add_frame(Index t);
   void add_odd_frame(Index t, const float* F);
   void admit_candidates(Index b);
   void close_frame(Index t);
   SegmentationReport trace_back() const;
-  int predecessor(Index b, int state) const;
   double* candidates(Index b) { return &candidates_[static_cast<std::size_t>(b % min_length_ * N_)]; }
 
   const SegmentationInput& input_;
@@ -84,12 +88,13 @@ class Recursion {
   std::vector<double> S_, G_;
   std::vector<double> candidates_;  // T_min × N ring of E_i(b) + init(b) − S_i(b+s−1) that are still too short
   SlidingMaximum H_;
-  std::vector<std::int32_t> starts_;    // T × N: start of the best last segment that ends at t
-  std::vector<double> best_uncounted_;  // T: max_l [G_l(b−1) + base_l], and that l
-  std::vector<std::int32_t> uncounted_predecessor_;
-  std::vector<Winner> winners_;
-  std::vector<std::size_t> winners_begin_;  // T + 1
-  std::vector<Index> last_impossible_;      // N, empty while every emission is finite
+  std::unique_ptr<std::int32_t[]> starts_;   // T × N: start of the best last segment that ends at t
+  std::vector<double> largest_counted_;      // N: largest log M_lj of a counted transition from l
+  std::vector<BestEnd> best_uncounted_;      // T: of E_i(t)
+  std::vector<Winner> winners_;              // of all t; those of t begin at winners_begin_[t]
+  std::vector<std::size_t> winners_begin_;   // T + 1
+  std::vector<std::int32_t> improved_from_;  // N: predecessors while one t is worked on, −1 elsewhere
+  std::vector<Index> last_impossible_;       // N, empty while every emission is finite
 };
 
 Index window_of(const SegmentationInput& input) {
@@ -111,10 +116,16 @@ Recursion::Recursion(const SegmentationInput& input)
   S_.assign(n, 0);
   G_.assign(n, kImpossible);
   candidates_.resize(static_cast<std::size_t>(min_length_) * n);
-  starts_.resize(frames * n);
-  best_uncounted_.assign(frames, kImpossible);
-  uncounted_predecessor_.assign(frames, -1);
+  starts_ = std::make_unique_for_overwrite<std::int32_t[]>(frames * n);
+  best_uncounted_.resize(frames);
   winners_begin_.assign(frames + 1, 0);
+  improved_from_.assign(n, -1);
+  if (!has_prior_) winners_.reserve(frames * n);  // nearly all are; pages count only when they are written
+  for (int l = 0; l < N_; ++l) {
+    double largest = kImpossible;
+    for (const auto& entry : transitions_.row(l)) largest = std::max(largest, entry.log_prob);
+    largest_counted_.push_back(largest);
+  }
 }
 
 SegmentationReport Recursion::run() {
@@ -129,18 +140,50 @@ SegmentationReport Recursion::run() {
   return trace_back();
 }
 
-// E_i(b): one value for all states that nothing counted leads to, and the winners.
+// E_i(b) into candidates(b): one value for all states but those that a counted transition wins.
 void Recursion::find_best_ends(Index b) {
   const auto k = static_cast<std::size_t>(b);
+  double* E = candidates(b);
   if (b == 0) {
-    best_uncounted_[k] = 0;
+    std::fill_n(E, N_, 0.0);
   } else {
     if (has_prior_) find_best_uncounted(b);
-    find_winners(b);
+    std::fill_n(E, N_, best_uncounted_[k].score);
+    if (improve_by_counted(best_uncounted_[k].score, E)) keep_winners();
   }
   winners_begin_[k + 1] = winners_.size();
 }
 
+bool Recursion::improve_by_counted(double uncounted, double* E) {
+  bool any = false;
+  for (int l = 0; l < N_; ++l) {
+    const double G = G_[static_cast<std::size_t>(l)];
+    if (G + largest_counted_[static_cast<std::size_t>(l)] <= uncounted) continue;  // most rows, when there is a prior
+    any = true;
+    for (const auto& entry : transitions_.row(l)) {
+      const double end = G + entry.log_prob;
+      std::int32_t& from = improved_from_[static_cast<std::size_t>(entry.to)];
+      const bool larger = end > E[entry.to];
+      from = larger ? l : from;
+      E[entry.to] = larger ? end : E[entry.to];
+    }
+  }
+  return any;
+}
+
+void Recursion::keep_winners() {
+  std::size_t count = winners_.size();
+  winners_.resize(count + static_cast<std::size_t>(N_));
+  for (std::int32_t i = 0; i < N_; ++i) {
+    std::int32_t& from = improved_from_[static_cast<std::size_t>(i)];
+    winners_[count] = {i, from};
+    count += from >= 0 ? 1 : 0;
+    from = -1;
+  }
+  winners_.resize(count);
+}
+
+// max_l [G_l(b−1) + base_l] is the same for every state.
 void Recursion::find_best_uncounted(Index b) {
   constexpr Index kLanes = 8;  // independent maxima, which vectorise
   const double* G = G_.data();
@@ -159,34 +202,16 @@ void Recursion::find_best_uncounted(Index b) {
   for (; i < N_; ++i) best = std::max(best, G[i] + base[i]);
   Index l = 0;
   while (l + 1 < N_ && G[l] + base[l] != best) ++l;
-  best_uncounted_[static_cast<std::size_t>(b)] = best;
-  uncounted_predecessor_[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(l);
-}
-
-void Recursion::find_winners(Index b) {
-  const double uncounted = best_uncounted_[static_cast<std::size_t>(b)];
-  for (int i = 0; i < N_; ++i) {
-    Winner winner{i, -1, uncounted};
-    for (const auto& entry : transitions_.column(i)) {
-      const double end = G_[static_cast<std::size_t>(entry.state)] + entry.log_prob;
-      if (end > winner.end) winner = {i, entry.state, end};
-    }
-    if (winner.predecessor >= 0) winners_.push_back(winner);
-  }
+  best_uncounted_[static_cast<std::size_t>(b)] = {best, static_cast<std::int32_t>(l)};
 }
 
 // E_i(b) + init(b) − S_i(b+s−1), once that sum is known.
 void Recursion::open_candidates(Index b) {
-  const auto k = static_cast<std::size_t>(b);
   const double init = start_density(input_, b);
   if (!(init < std::numeric_limits<double>::infinity())) throw_not_a_density("the start density", b);
   double* __restrict row = candidates(b);
   const double* __restrict S = S_.data();
-  const double uncounted = best_uncounted_[k] + init;
-  for (Index i = 0; i < N_; ++i) row[i] = uncounted - S[i];
-  for (std::size_t w = winners_begin_[k]; w < winners_begin_[k + 1]; ++w) {
-    row[winners_[w].state] = winners_[w].end + init - S[winners_[w].state];
-  }
+  for (Index i = 0; i < N_; ++i) row[i] = row[i] + init - S[i];
 }
 
 void Recursion::add_frame(Index t) {
@@ -229,15 +254,15 @@ void Recursion::close_frame(Index t) {
   const double* __restrict H = H_.values().data();
   double* __restrict G = G_.data();
   for (Index i = 0; i < N_; ++i) G[i] = S[i] + H[i];
-  std::copy(H_.positions().begin(), H_.positions().end(), starts_.begin() + t * N_);
+  std::copy(H_.positions().begin(), H_.positions().end(), &starts_[static_cast<std::size_t>(t * N_)]);
 }
 
 int Recursion::predecessor(Index b, int state) const {
   const auto k = static_cast<std::size_t>(b);
   const auto first = winners_.begin() + static_cast<std::ptrdiff_t>(winners_begin_[k]);
   const auto last = winners_.begin() + static_cast<std::ptrdiff_t>(winners_begin_[k + 1]);
-  const auto place = std::lower_bound(first, last, state, [](const Winner& w, int s) { return w.state < s; });
-  return place != last && place->state == state ? place->predecessor : uncounted_predecessor_[k];
+  const auto place = std::find_if(first, last, [&](const Winner& w) { return w.state == state; });
+  return place != last ? place->predecessor : best_uncounted_[k].state;
 }
 
 SegmentationReport Recursion::trace_back() const {

@@ -58,9 +58,9 @@ struct SegmentationReport {
 /// T_min … T_max cannot add up to T, or impossible frames and transitions leave nothing, the report is infeasible:
 /// score −∞, no segments. Of equal scores always the same is chosen. Sums are double.
 ///
-/// Cost O(T · (N + non-zero counts)) whatever T_min and T_max are; memory 4 T N + 8 N (T_min + 1½ (T_max − T_min))
-/// bytes. Thread-safe: sequences can be segmented in parallel. Throws InvalidInput (sizes that do not match, T ≤ s,
-/// options out of range) and NumericalFailure (NaN or +∞).
+/// Cost O(T · (N + non-zero counts)) whatever T_min and T_max are; memory 4 T N + 8 T_min N + 12 (T_max − T_min) N
+/// bytes (α = 0: up to 8 T N more). Thread-safe: sequences can be segmented in parallel. Throws InvalidInput (sizes
+/// that do not match, T ≤ s, options out of range) and NumericalFailure (NaN or +∞).
 SegmentationReport segment_sequence(const SegmentationInput& input);
 
 /// init(b) + Σ F of one segment, without transitions. The segment must lie inside the sequence.

@@ -23,18 +23,6 @@ void check_weight(double value, const char* what) {
 
 }  // namespace
 
-std::span<const LogTransitions::Entry> LogTransitions::row(int from) const {
-  const auto i = static_cast<std::size_t>(from);
-  return std::span(rows).subspan(static_cast<std::size_t>(row_begin[i]),
-                                 static_cast<std::size_t>(row_begin[i + 1] - row_begin[i]));
-}
-
-std::span<const LogTransitions::Entry> LogTransitions::column(int to) const {
-  const auto j = static_cast<std::size_t>(to);
-  return std::span(columns).subspan(static_cast<std::size_t>(column_begin[j]),
-                                    static_cast<std::size_t>(column_begin[j + 1] - column_begin[j]));
-}
-
 TransitionMatrix::TransitionMatrix(int num_states, double prior_count) {
   if (num_states < 0) throw InvalidInput("transition matrix: the number of states is negative");
   set_prior_count(prior_count);
@@ -118,29 +106,15 @@ std::vector<TransitionCount> TransitionMatrix::counts() const {
 }
 
 LogTransitions TransitionMatrix::log_transitions() const {
-  const auto n = static_cast<std::size_t>(num_states());
   LogTransitions result;
-  result.row_begin.assign(n + 1, 0);
-  result.column_begin.assign(n + 1, 0);
-  const auto entries = counts();
-  result.rows.reserve(entries.size());
-  result.columns.resize(entries.size());
-  for (const auto& e : entries) {
-    ++result.row_begin[static_cast<std::size_t>(e.from) + 1];
-    ++result.column_begin[static_cast<std::size_t>(e.to) + 1];
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    result.base.push_back(base_log_prob(static_cast<int>(i)));
-    result.row_begin[i + 1] += result.row_begin[i];
-    result.column_begin[i + 1] += result.column_begin[i];
-  }
-  std::vector<int> next = result.column_begin;
-  for (const auto& e : entries) {
-    // A count far below the prior may round to less than the base; the promise of the header is kept here.
-    const double log_p = std::max(log_prob(e.from, e.to), result.base[static_cast<std::size_t>(e.from)]);
-    result.rows.push_back({e.to, log_p});
-    const int k = next[static_cast<std::size_t>(e.to)]++;
-    result.columns[static_cast<std::size_t>(k)] = {e.from, log_p};
+  result.row_begin.push_back(0);
+  for (int i = 0; i < num_states(); ++i) {
+    result.base.push_back(base_log_prob(i));
+    for (const Entry& e : rows_[static_cast<std::size_t>(i)]) {
+      // A count far below the prior may round to less than the base; the promise of the header is kept here.
+      result.entries.push_back({e.to, std::max(log_prob(i, e.to), result.base.back())});
+    }
+    result.row_begin.push_back(result.entries.size());
   }
   return result;
 }

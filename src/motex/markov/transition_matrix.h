@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -17,18 +18,18 @@ struct TransitionCount {
 /// log p_ij = base[i], except where (i, j) is listed. Listed values are never below the base of their row.
 struct LogTransitions {
   struct Entry {
-    int state = 0;  ///< the other end: `to` in a row, `from` in a column
+    int to = 0;
     double log_prob = 0;
   };
-  std::vector<double> base;    ///< N; −∞ where the row has no prior
-  std::vector<int> row_begin;  ///< N + 1: row i is rows[row_begin[i]] … rows[row_begin[i + 1] − 1], by rising `to`
-  std::vector<Entry> rows;
-  std::vector<int> column_begin;  ///< N + 1
-  std::vector<Entry> columns;     ///< the same entries by column, then by rising `from`
+  std::vector<double> base;            ///< N; −∞ where the row has no prior
+  std::vector<std::size_t> row_begin;  ///< N + 1: row i is entries[row_begin[i]] … entries[row_begin[i + 1] − 1]
+  std::vector<Entry> entries;          ///< within a row by rising `to`
 
   int num_states() const { return static_cast<int>(base.size()); }
-  std::span<const Entry> row(int from) const;
-  std::span<const Entry> column(int to) const;
+  std::span<const Entry> row(int from) const {
+    const auto i = static_cast<std::size_t>(from);
+    return std::span(entries).subspan(row_begin[i], row_begin[i + 1] - row_begin[i]);
+  }
 };
 
 /// First-order Markov chain over N states, kept as counts n_ij ≥ 0 with a symmetric Dirichlet prior on every row:
