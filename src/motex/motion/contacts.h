@@ -43,7 +43,7 @@ struct FootModel {
 FootModel learn_foot_model(std::span<const Clip> clips, std::span<const std::string> names = {},
                            const JobContext& job = {});
 
-/// Positions of ankle and toe in the world, from their leg's FK.
+/// The two points of a foot that can be planted.
 enum FootPoint : int { kAnkle = 0, kToe = 1 };
 
 /// Frames × 2·legs (ankle, toe of each leg): 1 while the point is planted: low and slow, by the thresholds of FootModel

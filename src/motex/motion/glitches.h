@@ -14,7 +14,7 @@ namespace motex {
 struct GlitchOptions {
   double root_acceleration = 90;
   double joint_acceleration = 650;
-  double extend = 0.6;
+  double extend = 0.5;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
