@@ -5,10 +5,13 @@
 #include <sstream>
 #include <thread>
 
+#include "clip_output.h"
+#include "closest.h"
 #include "commands.h"
+#include "motex/core/archive.h"
 #include "motex/core/gemm.h"
-#include "motex/core/matrix.h"
 #include "motex/core/parallel.h"
+#include "motex/motion_io/clip_io.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -49,13 +52,19 @@ struct Doctor {
     object["eigen"] = eigen_version();
     object["blas"] = gemm_backend();
     object["cores"] = num_threads(0);
+    object["zlib"] = zlib_release();
+    object["reads"] = readable_clip_extensions();
+    object["writes"] = clip_output_extensions();
     object["browser"] = browser.empty() ? Value() : Value(browser);
     session.result(object,
                    text_pairs({{"motex", MOTEX_VERSION},
                                {"compiler", kCompiler},
                                {"Eigen", eigen_version()},
                                {"BLAS", gemm_backend()},
+                               {"zlib", zlib_release()},
                                {"cores", std::to_string(num_threads(0))},
+                               {"reads", enumerate(readable_clip_extensions())},
+                               {"writes", enumerate(clip_output_extensions())},
                                {"browser", browser.empty() ? "none found: pages open in any other" : browser}}));
   }
 };

@@ -16,7 +16,8 @@ namespace {
 
 CommandTable make_table() {
   return {
-      doctor(),
+      motion_learn(),   motion_info(),     motion_synthesize(), motion_segment(), motion_score(),
+      motion_compare(), motion_features(), motion_view(),       motion_convert(), doctor(),
   };
 }
 

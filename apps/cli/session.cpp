@@ -38,6 +38,8 @@ std::string duration_text(double secs) {
 
 }  // namespace
 
+double Session::secs() { return secs_since_start(); }
+
 JobContext Session::job(double from, double to) {
   JobContext job;
   job.cancel = &interrupted();

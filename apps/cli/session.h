@@ -34,6 +34,9 @@ class Session {
   /// The command's outcome: the object for --json (its warnings are added), else the text.
   void result(Value object, const std::string& text);
 
+  /// Since the program started.
+  static double secs();
+
   /// Prints warnings, then the result. Throws WriteError when stdout does not take it.
   void finish();
   /// Prints one line of warnings, if any, and the error.

@@ -207,4 +207,6 @@ std::vector<double> ArchiveReader::doubles(const std::string& name, Index size) 
   return {values.data(), values.data() + values.size()};
 }
 
+const char* zlib_release() { return zlibVersion(); }
+
 }  // namespace motex

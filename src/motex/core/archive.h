@@ -69,4 +69,7 @@ class ArchiveReader {
   std::map<std::string, Entry> entries_;
 };
 
+/// Version of the zlib that is linked, for `motex doctor`.
+const char* zlib_release();
+
 }  // namespace motex

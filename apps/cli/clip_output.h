@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "motex/motion/clip.h"
+#include "motex/project/pose_pictures.h"
+#include "session.h"
+
+namespace motex::cli {
+
+/// What a clip can be shown as: ".html", ".png", ".svg".
+std::vector<std::string> picture_extensions();
+/// The formats of clips and those.
+std::vector<std::string> clip_output_extensions();
+
+/// How a clip is shown where it is not written as motion.
+struct ClipPicture {
+  std::vector<TextonSpan> spans;
+  std::string title;  ///< of a page; empty = the clip's name
+  PoseStripOptions strip;
+};
+
+/// Writes the clip as the extension says and says so.
+void write_clip_output(const std::string& path, const Clip& clip, const ClipPicture& picture, Session& session);
+
+}  // namespace motex::cli
