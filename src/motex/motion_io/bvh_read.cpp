@@ -213,8 +213,8 @@ void BvhReader::read_motion_header() {
 
 // A frame starts at the start of a line; so a number too many or too few is found in the row where it happens.
 void BvhReader::read_rows() {
-  const auto most = static_cast<double>(num_bytes_ / (2 * num_channels_) + 1);
-  values_.reserve(static_cast<std::size_t>(std::clamp(stated_frames_, 0.0, most)) * num_channels_);
+  const std::size_t most = num_bytes_ / (2 * num_channels_) + 1;  // a number takes two bytes at least
+  values_.reserve(static_cast<std::size_t>(std::clamp(stated_frames_, 0.0, static_cast<double>(most))) * num_channels_);
   std::int64_t last_line = scan_.line();
   Index row = 0;
   for (; !scan_.at_end(); ++row) {

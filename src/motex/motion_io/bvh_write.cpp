@@ -29,7 +29,7 @@ void append(std::string& text, double shortest) {
 // A fixed number of decimals through integers: some ten times as fast as to_chars with a precision.
 class FixedFormat {
  public:
-  explicit FixedFormat(int decimals) : decimals_(decimals), scale_(1) {
+  explicit FixedFormat(int decimals) : decimals_(decimals) {
     for (int i = 0; i < decimals; ++i) scale_ *= 10;
   }
   char* write(char* out, double value) const {
@@ -48,7 +48,7 @@ class FixedFormat {
 
  private:
   int decimals_;
-  std::uint64_t scale_;
+  std::uint64_t scale_ = 1;
 };
 
 int decimals_for(double error_at_zero_decimals) {

@@ -26,6 +26,8 @@ class GltfParser {
       root_ = Json::parse(parts_.json);
     } catch (const Json::parse_error& e) {
       throw ParseError(name_, ParseError::Unit::kByte, static_cast<std::int64_t>(e.byte), "the JSON is broken");
+    } catch (const Json::exception&) {
+      fail("the JSON is broken: it holds a number beyond any range");
     }
     try {
       check_kind();

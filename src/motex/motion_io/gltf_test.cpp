@@ -77,6 +77,7 @@ TEST(GltfRead, Errors) {
   expect_error("", "byte 1: the JSON is broken");
   expect_error("{\"a\":", "the JSON is broken");
   expect_error("[1]", "no 'asset'");
+  expect_error(broken("[0,2,0]", "[0,2e999,0]"), "beyond any range");
   expect_error(broken("\"2.0\"", "\"1.0\""), "version 2 is read");
   expect_error(broken("\"children\":[1]", "\"children\":[7]"), "index into 'nodes'");
   expect_error(broken("\"children\":[1]", "\"children\":[0]"), "two parents");
