@@ -21,6 +21,8 @@ void check_weight(double value, const char* what) {
   }
 }
 
+bool is_before(const TransitionCount& entry, int to) { return entry.to < to; }
+
 }  // namespace
 
 TransitionMatrix::TransitionMatrix(int num_states, double prior_count) {
@@ -50,8 +52,8 @@ void TransitionMatrix::add_count(int from, int to, double weight) {
   check_weight(weight, "a count");
   if (weight == 0) return;
   auto& row = rows_[static_cast<std::size_t>(from)];
-  auto place = std::lower_bound(row.begin(), row.end(), to, [](const Entry& e, int state) { return e.to < state; });
-  if (place == row.end() || place->to != to) place = row.insert(place, Entry{to, 0});
+  auto place = std::lower_bound(row.begin(), row.end(), to, is_before);
+  if (place == row.end() || place->to != to) place = row.insert(place, TransitionCount{from, to, 0});
   place->count += weight;
   row_counts_[static_cast<std::size_t>(from)] += weight;
 }
@@ -70,8 +72,7 @@ double TransitionMatrix::count(int from, int to) const {
   check_state(from);
   check_state(to);
   const auto& row = rows_[static_cast<std::size_t>(from)];
-  const auto place =
-      std::lower_bound(row.begin(), row.end(), to, [](const Entry& e, int state) { return e.to < state; });
+  const auto place = std::lower_bound(row.begin(), row.end(), to, is_before);
   return place == row.end() || place->to != to ? 0 : place->count;
 }
 
@@ -99,10 +100,13 @@ bool TransitionMatrix::is_dead_end(int from) const { return row_count(from) + pr
 
 std::vector<TransitionCount> TransitionMatrix::counts() const {
   std::vector<TransitionCount> result;
-  for (int i = 0; i < num_states(); ++i) {
-    for (const Entry& e : rows_[static_cast<std::size_t>(i)]) result.push_back({i, e.to, e.count});
-  }
+  for (const auto& row : rows_) result.insert(result.end(), row.begin(), row.end());
   return result;
+}
+
+std::span<const TransitionCount> TransitionMatrix::counts_from(int from) const {
+  check_state(from);
+  return rows_[static_cast<std::size_t>(from)];
 }
 
 LogTransitions TransitionMatrix::log_transitions() const {
@@ -110,7 +114,7 @@ LogTransitions TransitionMatrix::log_transitions() const {
   result.row_begin.push_back(0);
   for (int i = 0; i < num_states(); ++i) {
     result.base.push_back(base_log_prob(i));
-    for (const Entry& e : rows_[static_cast<std::size_t>(i)]) {
+    for (const TransitionCount& e : rows_[static_cast<std::size_t>(i)]) {
       // A count far below the prior may round to less than the base; the promise of the header is kept here.
       result.entries.push_back({e.to, std::max(log_prob(i, e.to), result.base.back())});
     }
@@ -131,7 +135,7 @@ double TransitionMatrix::log_prior() const {
   for (int i = 0; i < num_states(); ++i) {
     const double base = base_log_prob(i);
     sum += base * num_states();
-    for (const Entry& e : rows_[static_cast<std::size_t>(i)]) sum += log_prob(i, e.to) - base;
+    for (const TransitionCount& e : rows_[static_cast<std::size_t>(i)]) sum += log_prob(i, e.to) - base;
   }
   return sum * prior_count_ / num_states();
 }

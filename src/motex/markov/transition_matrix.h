@@ -8,7 +8,7 @@
 
 namespace motex {
 
-/// One entry of a sparse matrix of counts.
+/// n_ij > 0.
 struct TransitionCount {
   int from = 0;
   int to = 0;
@@ -61,8 +61,9 @@ class TransitionMatrix {
   double base_log_prob(int from) const;
   bool is_dead_end(int from) const;
 
-  /// Entries with a positive count by rising `from`, then `to`.
+  /// Entries with a positive count by rising `from`, then `to`; and those of one row.
   std::vector<TransitionCount> counts() const;
+  std::span<const TransitionCount> counts_from(int from) const;
   LogTransitions log_transitions() const;
 
   /// Σ_ij n_ij log p_ij: of the counted transitions under this matrix.
@@ -76,14 +77,10 @@ class TransitionMatrix {
   TransitionMatrix restricted_to(std::span<const int> states) const;
 
  private:
-  struct Entry {
-    int to = 0;
-    double count = 0;
-  };
   void check_state(int state) const;
 
   double prior_count_ = 0;
-  std::vector<std::vector<Entry>> rows_;  // by rising `to`
+  std::vector<std::vector<TransitionCount>> rows_;  // by rising `to`
   std::vector<double> row_counts_;
 };
 
