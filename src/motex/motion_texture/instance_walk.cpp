@@ -42,10 +42,8 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
       throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
                          std::to_string(model.textons.size() - 1));
   tau_ = options.nearness * usual_jump_distance(model);
-  const auto components = strongly_connected_components(model.transitions);
-  const auto largest = std::max_element(components.begin(), components.end(),
-                                        [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  for (const int texton : *largest) texton_allowed_[static_cast<std::size_t>(texton)] = true;
+  const Components components = strongly_connected_components(counted_graph(model.transitions));
+  for (const int texton : components.largest()) texton_allowed_[static_cast<std::size_t>(texton)] = true;
   for (std::size_t i = 0; i < model.instances.size(); ++i)
     if (is_allowed(static_cast<int>(i))) allowed_.push_back(static_cast<int>(i));
 }

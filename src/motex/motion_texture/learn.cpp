@@ -78,12 +78,11 @@ void describe_graph(const MotionTexture& model, LearnReport& report) {
   for (std::size_t k = 1; k < model.instances.size(); ++k)
     if (model.instances[k].run_idx == model.instances[k - 1].run_idx)
       observed.add_count(model.instances[k - 1].texton, model.instances[k].texton);
-  report.num_dead_ends = static_cast<int>(dead_ends(observed).size());
-  const auto components = strongly_connected_components(model.transitions);
-  report.num_components = static_cast<int>(components.size());
-  std::size_t largest = 0;
-  for (const auto& component : components) largest = std::max(largest, component.size());
-  report.largest_component = static_cast<double>(largest) / static_cast<double>(model.textons.size());
+  report.num_dead_ends = static_cast<int>(dead_ends(counted_graph(observed)).size());
+  const Components components = strongly_connected_components(counted_graph(model.transitions));
+  report.num_components = static_cast<int>(components.members.size());
+  report.largest_component =
+      static_cast<double>(components.largest().size()) / static_cast<double>(model.textons.size());
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ struct RecognisedSegment {
 /// The most likely segmentation of a clip that may be new to the model [MT02 appendix A].
 std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Clip& clip);
 
-/// Nats per frame of the weighted feature vector; frames from the third of each clip on.
+/// Nats per frame of the weighted feature vector. Counted are the frames that two good frames precede; glitches are left
+/// out as in learning.
 struct ScoreReport {
   double log_likelihood_per_frame = 0;             ///< of clips and their best texton path
   double global_lds_log_likelihood_per_frame = 0;  ///< of the clips under one global LDS of the same state size

@@ -1,30 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "motex/core/error.h"
 #include "motex/markov/segmentation.h"
+#include "motex/motion_texture/corpus.h"
 #include "motex/motion_texture/emissions.h"
 #include "motex/motion_texture/learn.h"
-#include "motex/motion_texture/subspace.h"
 
 namespace motex {
 namespace {
 
-struct Emissions {
-  FrameMatrix features;
-  FrameMatrixF values;  ///< frames × textons
-};
-
-/// F of every frame of a clip under every texton, or under the one global system.
-Emissions evaluate(const MotionTexture& model, const Clip& clip, bool global, const JobContext& job) {
-  Emissions out;
-  out.features = encode(model.features, clip, job);
-  const std::vector<Run> runs{{0, 0, 0, out.features.rows()}};
+/// F of every frame of the runs under every texton, or under the one global system: frames × textons.
+FrameMatrixF evaluate(const MotionTexture& model, const Corpus& corpus, bool global, const JobContext& job) {
   const bool shared = global || model.subspaces.size() == 1;
   const Subspace& space = global ? model.global_subspace : model.subspaces[0];
-  EmissionBank bank(out.features, runs, shared ? &space : nullptr, model.outside_deviation);
+  EmissionBank bank(corpus.features, corpus.runs, shared ? &space : nullptr, model.outside_deviation);
   std::vector<int> all;
   if (global) {
     bank.set_texton(0, space, fit_lds(model.global_statistics, make_prior(model.global_statistics, 1)));
@@ -35,9 +27,9 @@ Emissions evaluate(const MotionTexture& model, const Clip& clip, bool global, co
       all.push_back(i);
     }
   }
-  out.values.resize(out.features.rows(), static_cast<Index>(all.size()));
-  bank.evaluate(all, out.values, job);
-  return out;
+  FrameMatrixF values(corpus.features.rows(), static_cast<Index>(all.size()));
+  bank.evaluate(all, values, job);
+  return values;
 }
 
 /// Transitions with the learner's prior on top of the observed counts and jumps, so that a new clip may do anything.
@@ -56,9 +48,12 @@ SegmentOptions segment_rules(const MotionTexture& model) {
 }  // namespace
 
 std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Clip& clip) {
-  const Emissions emissions = evaluate(model, clip, false, {});
+  Corpus corpus;
+  corpus.features = encode(model.features, clip);
+  corpus.runs = {{0, 0, 0, clip.num_frames()}};
+  const FrameMatrixF emissions = evaluate(model, corpus, false, {});
   const TransitionMatrix transitions = open_transitions(model);
-  const SegmentationInput input{emissions.values, {}, transitions, segment_rules(model)};
+  const SegmentationInput input{emissions, {}, transitions, segment_rules(model)};
   std::vector<RecognisedSegment> out;
   for (const Segment& s : segment_sequence(input).segments)
     out.push_back({s.state, s.start, s.length, segment_score(input, s) / static_cast<double>(s.length)});
@@ -67,20 +62,20 @@ std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Cl
 }
 
 ScoreReport score_clips(const MotionTexture& model, std::span<const Clip> clips, const JobContext& job) {
-  ScoreReport report;
-  double textons = 0, global = 0;
+  const SegmentOptions rules = segment_rules(model);
+  const Corpus corpus = make_corpus(model.features, clips, rules.min_length, model.options.keep_glitches, job);
   const TransitionMatrix transitions = open_transitions(model);
-  for (const Clip& clip : clips) {
+  const FrameMatrixF own = evaluate(model, corpus, false, job);
+  ScoreReport report;
+  double textons = 0;
+  for (const Run& run : corpus.runs) {
     job.check_cancelled();
-    if (clip.num_frames() < 3) throw InvalidInput(clip.name + ": a clip needs at least 3 frames to be scored");
-    const Emissions own = evaluate(model, clip, false, job);
-    const SegmentationReport best = segment_sequence({own.values, {}, transitions, segment_rules(model)});
-    if (!best.is_feasible()) throw InvalidInput(clip.name + ": no lengths of segments add up to the clip");
+    const SegmentationReport best = segment_sequence({own.middleRows(run.row, run.length), {}, transitions, rules});
+    if (!best.is_feasible()) throw InvalidInput("no lengths of segments add up to a stretch of a clip");
     textons += best.score;
-    global += evaluate(model, clip, true, job).values.cast<double>().sum();
-    report.num_frames += clip.num_frames() - 2;
+    report.num_frames += run.length - 2;
   }
-  if (report.num_frames == 0) throw InvalidInput("no clip to score");
+  const double global = evaluate(model, corpus, true, job).cast<double>().sum();
   report.log_likelihood_per_frame = textons / static_cast<double>(report.num_frames);
   report.global_lds_log_likelihood_per_frame = global / static_cast<double>(report.num_frames);
   return report;
