@@ -44,7 +44,7 @@ return {hash, painted: painted * 4 / data.length, colours: colours.size, width: 
 class Driver:
     """The few WebDriver commands that the test needs."""
 
-    def __init__(self, chromium, chromedriver, profile, dark=False):
+    def __init__(self, chromium, chromedriver, profile):
         with socket.socket() as s:
             s.bind(("127.0.0.1", 0))
             port = s.getsockname()[1]
@@ -52,7 +52,7 @@ class Driver:
         self.base = f"http://127.0.0.1:{port}"
         self.session = ""
         self.wait_until_ready()
-        flags = CHROMIUM_FLAGS + [f"--user-data-dir={profile}"] + (["--force-dark-mode"] if dark else [])
+        flags = CHROMIUM_FLAGS + [f"--user-data-dir={profile}"]
         capabilities = {"goog:chromeOptions": {"binary": chromium, "args": flags}, "goog:loggingPrefs": {"browser": "ALL"}}
         value = self.call("POST", "/session", {"capabilities": {"alwaysMatch": capabilities}})
         self.session = f"/session/{value['sessionId']}"

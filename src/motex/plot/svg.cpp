@@ -5,6 +5,7 @@
 #include "motex/core/base64.h"
 #include "motex/image/png.h"
 #include "motex/plot/drawing.h"
+#include "motex/plot/stroke_font.h"
 
 namespace motex {
 namespace {
@@ -85,6 +86,9 @@ class SvgWriter {
     static constexpr const char* kAnchors[] = {"start", "middle", "end"};
     body += "<text" + attribute("x", s.anchor.x) + attribute("y", s.anchor.y) + attribute("font-size", s.size) +
             attribute("text-anchor", kAnchors[static_cast<int>(s.align)]) + paint("fill", s.colour);
+    // The viewer's font may be wider than ours, for which the drawing was laid out.
+    if (!s.text.empty())
+      body += attribute("textLength", text_width(s.text, s.size)) + " lengthAdjust=\"spacingAndGlyphs\"";
     if (s.bold) body += " font-weight=\"600\"";
     if (s.upwards) body += attribute("transform", "rotate(-90 " + number(s.anchor.x) + ' ' + number(s.anchor.y) + ')');
     body += '>' + escaped(s.text) + "</text>\n";

@@ -218,7 +218,7 @@ Figure make_figure(const Skeleton& skeleton) {
   if (figure.head_idx >= 0) {
     const int centre = static_cast<int>(figure.num_points) - 1;
     figure.parts.push_back(
-        {{{centre, kHeadRadius * figure.height}, {figure.head_idx, 0.7 * kHeadRadius * figure.height}}, Side::kMiddle});
+        {{{centre, kHeadRadius * figure.height}, {figure.head_idx, 0.8 * kHeadRadius * figure.height}}, Side::kMiddle});
   }
   return figure;
 }

@@ -99,7 +99,7 @@ class StripPainter {
   Drawing paint(const Clip& clip, const std::vector<TextonSpan>& spans) {
     const double row_height =
         above_ + below_ + (options_.frame_numbers ? 18 : 4) + (spans.empty() ? 0 : kStripHeight + 8);
-    drawing_ = {2 * kMargin + options_.figures * spacing_, kCaption + options_.rows * row_height + kMargin, kPaper, {}};
+    drawing_ = {2 * side_ + options_.figures * spacing_, kCaption + options_.rows * row_height + kMargin, kPaper, {}};
     char caption[160];
     std::snprintf(caption, sizeof caption, "frames %ld – %ld of %ld, %.4g a second", static_cast<long>(first_),
                   static_cast<long>(last_), static_cast<long>(points_.rows()), clip.frame_rate());
@@ -116,6 +116,10 @@ class StripPainter {
     if (first_ >= frames)
       throw InvalidInput((clip.name.empty() ? "the clip" : clip.name) + " has no frame at " +
                          std::to_string(options_.start_secs) + " s to draw");
+    if (frames - first_ < options_.figures) {
+      options_.figures = static_cast<int>(frames - first_);
+      options_.rows = 1;
+    }
     const int count = options_.figures * options_.rows;
     const double secs = options_.secs > 0 ? options_.secs : kSecsPerFigure * (count - 1);
     const double wanted = std::min(secs / clip.frame_time_secs, 1e15);
@@ -142,9 +146,11 @@ class StripPainter {
     for (Index t = first_; t <= last_; ++t)
       for (const BodyPart& part : figure_.parts)
         for (const Ball& ball : part.balls) {
-          const double y = place(t, ball.point_idx).y, r = ball.radius * view_.scale;
+          const auto [x, y] = place(t, ball.point_idx);
+          const double r = ball.radius * view_.scale;
           above_ = std::max(above_, r - y + 6);
           below_ = std::max(below_, y + r + 6);
+          side_ = std::max(side_, std::abs(x) + r + 6 - spacing_ / 2);
         }
   }
 
@@ -168,7 +174,7 @@ class StripPainter {
   Index frame_of(double figure) const {
     return std::clamp(first_ + static_cast<Index>(std::llround(figure * step_)), first_, last_);
   }
-  double x_of(int row, double figure) const { return kMargin + (figure - row * options_.figures + 0.5) * spacing_; }
+  double x_of(int row, double figure) const { return side_ + (figure - row * options_.figures + 0.5) * spacing_; }
 
   void paint_row(int row, double floor_y, const std::vector<TextonSpan>& spans) {
     const int first = row * options_.figures, last = first + options_.figures - 1;
@@ -278,13 +284,14 @@ class StripPainter {
     append(
         drawing_,
         draw_segments(segments, left, left + options_.figures * per_figure, options_.figures * spacing_, kStripHeight),
-        {kMargin, y});
+        {side_, y});
   }
 
   PoseStripOptions options_;
   Figure figure_;
   FrameMatrix points_;
-  double floor_ = 0, step_ = 0, spacing_ = 0, above_ = 0, below_ = 0;
+  double floor_ = 0, step_ = 0, spacing_ = 0;
+  double above_ = 0, below_ = 0, side_ = kMargin;  // room around the outermost figures
   Index first_ = 0, last_ = 0;
   View view_;
   Drawing drawing_;

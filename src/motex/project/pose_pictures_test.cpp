@@ -60,7 +60,8 @@ TEST(PoseStrip, FiguresStandAtEqualTimes) {
 
 TEST(PoseStrip, ShortClipsAreShownWhole) {
   EXPECT_EQ(frame_numbers(pose_strip(walk(25))).back(), 24);
-  EXPECT_EQ(frame_numbers(pose_strip(walk(1))).back(), 0);
+  EXPECT_EQ(frame_numbers(pose_strip(walk(3))), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(frame_numbers(pose_strip(walk(1))), (std::vector<int>{0}));
 }
 
 TEST(PoseStrip, EveryFigureIsThereAndInsideThePicture) {
@@ -80,6 +81,10 @@ TEST(PoseStrip, EveryFigureIsThereAndInsideThePicture) {
     EXPECT_GT(orange, 200) << k;
   }
   for (int x = 0; x < image.width; ++x) EXPECT_EQ(image.at(x, image.height - 1), (Rgba{255, 255, 255, 255}));
+  for (int y = 0; y < image.height / 2; ++y) {
+    EXPECT_EQ(image.at(0, y), (Rgba{255, 255, 255, 255}));
+    EXPECT_EQ(image.at(image.width - 1, y), (Rgba{255, 255, 255, 255}));
+  }
 }
 
 // The walk goes towards +Z and the view is turned towards the left side: the left shoulder is on the right of the

@@ -16,7 +16,7 @@ class Camera {
   reset() {
     this.yaw = this.home;
     this.pitch = 0.2;
-    this.distance = 4.4;
+    this.distance = 3.6;
     /** @type {Vec3} */
     this.target = [0, 0.88, 0];
     /** @type {Vec3} moved away from the target by hand */

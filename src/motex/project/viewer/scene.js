@@ -5,7 +5,7 @@
 /** @typedef {{x: number, y: number}} Spot */
 /** @typedef {{x: number, y: number, r: number}} Disc */
 
-const kRim = 18;
+const kRim = 24;
 const kRimDirections = Array.from({length: kRim}, (_, i) => [Math.cos(2 * Math.PI * i / kRim), Math.sin(2 * Math.PI * i / kRim)]);
 /** @type {Vec3} towards the light */
 const kLight = [-0.35, 1, 0.25];
@@ -156,30 +156,33 @@ class Scene {
     context.fill();
   }
 
-  /** Where hands and feet were, fading into the past. @param {number} time */
+  /** Where hands and feet were, thinner and fainter into the past. @param {number} time */
   paintTrails(time) {
-    const {motion, camera, context} = this, {data} = motion;
-    const now = Math.min(Math.floor(time), data.numFrames - 1), length = Math.max(1, Math.round(this.trailSecs / data.frameTimeSecs));
-    const first = Math.max(0, now - length), stride = Math.max(1, Math.floor(length / 80));
-    context.lineCap = 'round';
+    const kPieces = 14, {motion, camera, context} = this, {data} = motion;
+    const now = Math.min(Math.floor(time), data.numFrames - 1), length = this.trailSecs / data.frameTimeSecs;
+    context.lineCap = 'butt';
+    context.lineJoin = 'round';
     data.trails.forEach((point, idx) => {
       context.strokeStyle = this.palette.sides[data.trailSides[idx]];
-      let last = camera.project(motion.pose[3 * point], motion.pose[3 * point + 1], motion.pose[3 * point + 2]);
-      for (let t = now; t >= first; t -= stride) {
-        const p = camera.project(motion.coordinate(t, point, 0), motion.coordinate(t, point, 1), motion.coordinate(t, point, 2));
-        const age = (now - t) / length;
-        if (p.depth > 0.2 && last.depth > 0.2) {
-          context.globalAlpha = 0.85 * (1 - age) ** 1.5;
-          context.lineWidth = (1 + 2.2 * (1 - age)) * this.pixelRatio;
-          context.beginPath();
-          context.moveTo(last.x, last.y);
-          context.lineTo(p.x, p.y);
-          context.stroke();
-        }
-        last = p;
+      for (let piece = 0; piece < kPieces; ++piece) {
+        const newest = Math.round(now - length * piece / kPieces), oldest = Math.round(now - length * (piece + 1) / kPieces);
+        const fresh = 1 - (piece + 0.5) / kPieces;
+        context.globalAlpha = 0.9 * fresh ** 1.4;
+        context.lineWidth = (1 + 2.4 * fresh) * this.pixelRatio;
+        context.beginPath();
+        if (piece === 0) this.trailPoint(motion.pose[3 * point], motion.pose[3 * point + 1], motion.pose[3 * point + 2]);
+        for (let t = newest; t >= Math.max(0, oldest); --t)
+          this.trailPoint(motion.coordinate(t, point, 0), motion.coordinate(t, point, 1), motion.coordinate(t, point, 2));
+        context.stroke();
       }
     });
     context.globalAlpha = 1;
+  }
+
+  /** @param {number} x @param {number} y @param {number} z */
+  trailPoint(x, y, z) {
+    const p = this.camera.project(x, y, z);
+    if (p.depth > 0.2) this.context.lineTo(p.x, p.y);
   }
 
   paintBody() {

@@ -90,7 +90,7 @@ class Viewer {
       return node;
     };
     const parts = [make('b', `${(this.frame * frameTimeSecs).toFixed(2)} s`), make('span', ` / ${total.toFixed(2)} s`, 'of'),
-      make('span', '   frame ', 'of'), make('b', String(this.frame)), make('span', ` / ${numFrames - 1}`, 'of')];
+      make('span', 'frame ', 'of next'), make('b', String(this.frame)), make('span', ` / ${numFrames - 1}`, 'of')];
     if (span) {
       const swatch = make('span', '', 'swatch');
       swatch.style.background = span.colour;
