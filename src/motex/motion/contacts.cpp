@@ -188,7 +188,7 @@ FootModel learn_foot_model(std::span<const Clip> clips, std::span<const std::str
       learn_heights(track_point(clips, leg, kToe), model.cm_per_unit, leg.toe_floor, leg.toe_height, low_speeds);
   }
   const double usual = low_speeds.empty() ? 0 : quantile(std::move(low_speeds), 0.25) * model.cm_per_unit;
-  model.begin_speed = std::clamp(3 * usual, 15.0, 30.0) / model.cm_per_unit;
+  model.begin_speed = std::clamp(3 * usual, 10.0, 30.0) / model.cm_per_unit;
   model.end_speed = 1.5 * model.begin_speed;
   model.height_margin = 1.5 / model.cm_per_unit;
   return model;

@@ -37,7 +37,7 @@ struct FootModel {
 /// limbs whose tips are lowest (5th height percentile) and that part above the hips. Thigh and shank are the two
 /// consecutive bones whose shorter one is longest on the way from the tip to the body.
 /// Heights: floor = 2nd percentile; a contact begins below floor + max(2.5 cm, 1.5 (median − floor)). Speeds: begin =
-/// 3 × the 25th percentile of low feet, within 15 … 30 cm/s; end = 1.5 × begin.
+/// 3 × the 25th percentile of low feet, within 10 … 30 cm/s; end = 1.5 × begin.
 /// Clips share one skeleton. A body without such legs gives a model without legs and a warning. Throws InvalidInput for
 /// a name that is no joint, or whose limb has no two bones.
 FootModel learn_foot_model(std::span<const Clip> clips, std::span<const std::string> names = {},

@@ -15,7 +15,7 @@ namespace motex {
 namespace {
 
 /// The body follows the mean correction of the feet this far: less bending of the knees, no more shaking of the body.
-constexpr double kPelvisShare = 0.3;
+constexpr double kPelvisShare = 0.15;
 /// A foot in the air at kFastSpeed, cm/s, keeps its correction for about kFastHoldSecs.
 constexpr double kFastSpeed = 300, kFastHoldSecs = 0.2;
 
@@ -86,6 +86,8 @@ FootFixer::State::State(const FootModel& feet, const Skeleton& skeleton, double 
   check_options(options);
   check_skeleton(skeleton);
   check_model(model, skeleton);
+  model.begin_speed *= options.speed_factor;
+  model.end_speed *= options.speed_factor;
   if (!(dt > 0)) throw InvalidInput("the frame time must be positive");
   const Index min_frames = std::max<Index>(1, std::lround(model.min_contact_secs / dt));
   delay = static_cast<Index>(options.lookahead / dt + 1e-9);
@@ -139,7 +141,7 @@ void FootFixer::State::push(const Clip& clip, Index frame, bool pin) {
   if (pushed >= 2) detect(pushed - 2, pushed - 1);
 }
 
-/// As detect_contacts.
+/// As detect_contacts, with the speeds times options.speed_factor.
 void FootFixer::State::detect(Index frame, Index last_frame) {
   const Index a = std::max<Index>(frame - 1, 0), b = std::min(frame + 1, last_frame);
   if (a == b) return;

@@ -17,6 +17,7 @@ struct FootFixOptions {
   double ease = 0.1;
   double hold = 1.5;
   double max_correction = 6;
+  double speed_factor = 1.5;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -27,6 +28,8 @@ struct FootFixOptions {
           Range{0.1, 100});
     visit(Field{"max_correction", "cm", "corrections that grow beyond this are let go"}, self.max_correction,
           Range{0.1, 100});
+    visit(Field{"speed_factor", "", "feet up to this many times faster than planted feet of the examples are held too"},
+          self.speed_factor, Range{0.1, 10});
   }
 };
 
