@@ -52,12 +52,15 @@ Corpus make_corpus(const FeatureSpace& space, std::span<const Clip> clips, Index
   if (corpus.num_glitch_frames > 0)
     job.warn("left out " + std::to_string(corpus.num_glitch_frames) + " frames of " + std::to_string(clips_with_glitches) +
              (clips_with_glitches == 1 ? " clip" : " clips") + " in which the body jumps; --keep-glitches keeps them");
-  if (parts.empty()) {
-    const double fps = 1 / space.frame_time_secs;
-    throw InvalidInput(clips[0].name + (clips.size() > 1 ? " and the others" : "") + ": the longest usable stretch is " +
-                       std::to_string(static_cast<double>(longest) / fps).substr(0, 5) + " s; one segment needs " +
-                       std::to_string(static_cast<double>(min_frames + 2) / fps).substr(0, 5) +
-                       " s: give a longer clip or lower --min-duration");
+  Index room = 0;  // for segments; one alone has nothing to be followed by
+  for (const Run& run : corpus.runs) room += (run.length - 2) / min_frames;
+  if (room < 2) {
+    const auto secs = [&](Index frames) {
+      return std::to_string(static_cast<double>(frames) * space.frame_time_secs).substr(0, 4) + " s";
+    };
+    throw InvalidInput(clips[0].name + (clips.size() > 1 ? " and the others are" : " is") +
+                       " too short: the longest usable stretch is " + secs(longest) + ", two segments need " +
+                       secs(2 * min_frames + 2) + "; give a longer clip or lower --min-duration");
   }
   corpus.features.resize(row, space.size());
   for (std::size_t i = 0; i < parts.size(); ++i)
