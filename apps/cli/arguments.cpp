@@ -79,6 +79,16 @@ std::size_t parse_choice(const std::string& argument, const std::string& text,
   return static_cast<std::size_t>(found - choices.begin());
 }
 
+std::vector<std::string> split_at_commas(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; !text.empty() && at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    words.push_back(text.substr(at, comma - at));
+    at = comma + 1;
+  }
+  return words;
+}
+
 Argument& Arguments::append(const std::string& flags, const std::string& placeholder, const std::string& help) {
   Argument& argument = arguments_.emplace_back();
   argument.section = section_;

@@ -38,6 +38,9 @@ void parse_value(const std::string& argument, const std::string& text, std::uint
 void parse_value(const std::string& argument, const std::string& text, std::string& value);
 std::size_t parse_choice(const std::string& argument, const std::string& text, const std::vector<std::string>& choices);
 
+/// "3,17,5" → its words; none for "".
+std::vector<std::string> split_at_commas(const std::string& text);
+
 /// What a command takes, declared once; parsing, help page and completion are made from it.
 class Arguments {
  public:

@@ -29,7 +29,6 @@ void write_clip_output(const std::string& path, const Clip& clip, const ClipPict
   } else {
     write_clip(path, clip, job);
   }
-  session.say("wrote " + path);
 }
 
 }  // namespace motex::cli

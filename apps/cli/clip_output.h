@@ -23,7 +23,7 @@ struct ClipPicture {
   PoseStripOptions strip;
 };
 
-/// Writes the clip as the extension says and says so.
+/// Writes the clip as the extension says.
 void write_clip_output(const std::string& path, const Clip& clip, const ClipPicture& picture, Session& session);
 
 }  // namespace motex::cli

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "motex/core/error.h"
+
 namespace motex::cli {
 namespace {
 
@@ -62,6 +64,11 @@ std::string usage(const Command& command, const Arguments& arguments) {
   return text + " [options]\n";
 }
 
+std::string as_sentence(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text + ".";
+}
+
 std::string noun_of(const std::string& name) { return name.substr(0, name.find(' ')); }
 
 /// Name as a shell variable's part of a case pattern.
@@ -95,14 +102,18 @@ Arguments arguments_of(const Command& command, CommonFlags& flags) {
   arguments.toggle("--json", "print the result as one JSON object on stdout", flags.json);
   arguments.toggle("-f,--force", "replace files that exist", flags.force);
   arguments.toggle("--dry-run", "check everything, say what would be done, write nothing", flags.dry_run);
-  arguments.value("-j,--jobs", "N", "threads (default: all cores); results do not depend on it", flags.jobs);
+  arguments.value("-j,--jobs", "N", "threads (default: all cores); results do not depend on it", flags.jobs).set =
+      [&flags](const std::string& text) {
+        parse_value("--jobs", text, flags.jobs);
+        if (flags.jobs < 1 || flags.jobs > 1024) throw InvalidInput("--jobs: " + text + " is outside 1 … 1024");
+      };
   arguments.toggle("-q,--quiet", "say nothing but errors", flags.quiet);
   return arguments;
 }
 
 std::string help_page(const Command& command, const Arguments& arguments) {
-  std::string text = usage(command, arguments) + "\n" + wrapped(command.summary, 0, 0);
-  if (!command.details.empty()) text += wrapped(command.details, 0, 0);
+  std::string text =
+      usage(command, arguments) + "\n" + wrapped(as_sentence(command.summary) + " " + command.details, 0, 0);
   std::string section = "\n";
   for (const Argument& argument : arguments.all()) {
     if (argument.section != section) {

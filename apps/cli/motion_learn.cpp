@@ -33,11 +33,9 @@ Index total_frames(const std::vector<Clip>& clips) {
 /// "a,b,c" as numbers above 0.
 std::vector<double> parse_thresholds(const std::string& text) {
   std::vector<double> thresholds;
-  for (std::size_t at = 0; !text.empty() && at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    parse_value("--sweep-thresholds", text.substr(at, comma - at), thresholds.emplace_back());
+  for (const std::string& word : split_at_commas(text)) {
+    parse_value("--sweep-thresholds", word, thresholds.emplace_back());
     if (thresholds.back() <= 0) throw InvalidInput("--sweep-thresholds: thresholds are above 0");
-    at = comma + 1;
   }
   return thresholds;
 }
@@ -105,7 +103,7 @@ struct Learn {
                     "learn with several thresholds and plot what comes of it (.png, .svg, .csv); a quarter of the "
                     "clips is held out",
                     sweep);
-    arguments.value("--sweep-thresholds", "A,B,…", "those (default: auto, and six around it)", sweep_thresholds);
+    arguments.value("--sweep-thresholds", "A,B,…", "those (default: auto and six more)", sweep_thresholds);
     arguments.section("Reading clips");
     arguments.options(read);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "clip_output.h"
+#include "closest.h"
 #include "commands.h"
 #include "model_sources.h"
 #include "motex/motion_texture/synthesize.h"
@@ -21,16 +22,20 @@ constexpr double kMaxFrames = 1e8;
 /// "3,17,17,5".
 std::vector<int> parse_path(const std::string& text) {
   std::vector<int> path;
-  for (std::size_t at = 0; !text.empty() && at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    parse_value("--path", text.substr(at, comma - at), path.emplace_back());
-    at = comma + 1;
-  }
+  for (const std::string& word : split_at_commas(text)) parse_value("--path", word, path.emplace_back());
   return path;
 }
 
+/// Learns anew where the feet stand, from the model's own examples, with these joints as feet.
+void name_feet(MotionTexture& model, const std::vector<std::string>& names, const JobContext& job) {
+  std::vector<Clip> examples;
+  for (const Run& run : model.runs)
+    examples.push_back(decode(model.features, model.corpus.middleRows(run.row, run.length).cast<double>()));
+  model.feet = learn_foot_model(examples, names, job);
+}
+
 struct Synthesize {
-  std::string model_path, path_text;
+  std::string model_path, path_text, feet_text;
   std::vector<std::string> outputs;
   std::int64_t frames = 0;
   double secs = 0;
@@ -55,23 +60,25 @@ struct Synthesize {
     arguments.value("--texton", "T", "that one", texton);
     arguments.section("How");
     arguments.options(options);
+    arguments.value("--feet", "NAME,…", "the joints that are feet, one a leg (default: found by the model)", feet_text);
   }
 
   void run(Session& session) {
     check_request();
     check_outputs(outputs, clip_output_extensions(), session);
-    const MotionTexture model = load_model(model_path);
+    MotionTexture model = load_model(model_path);
     const Index num_frames = wanted_frames(model.frame_time_secs());
     if (session.flags.dry_run) return report_dry_run(num_frames, session);
+    if (!feet_text.empty()) name_feet(model, split_at_commas(feet_text), session.job(0, 0.1));
     SynthesizeReport report;
-    Clip clip = unconstrained ? synthesize_unconstrained(model, texton, num_frames, options, report)
-                                    : synthesize_motion(model, num_frames, parse_path(path_text), options, report,
-                                                        session.job(0, 0.9));
+    Clip clip = unconstrained
+                    ? synthesize_unconstrained(model, texton, num_frames, options, report)
+                    : synthesize_motion(model, num_frames, parse_path(path_text), options, report, session.job(0, 0.9));
     clip.name = std::filesystem::path(model_path).stem().string() + "_seed" + std::to_string(options.seed);
     ClipPicture picture;
     picture.spans = played_spans(model, report, clip.num_frames());
     for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
-    session.say(std::to_string(clip.num_frames()) + " frames, " +
+    session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 fixed(static_cast<double>(clip.num_frames()) * clip.frame_time_secs, 1) + " s, " +
                 std::to_string(report.played.size()) + " textons, seed " + std::to_string(options.seed));
     session.result(report_value(model, clip, report, session), "");

@@ -108,6 +108,12 @@ TEST(Parse, AutoIsZero) {
   EXPECT_FALSE(call.options.glossy);
 }
 
+TEST(SplitAtCommas, KeepsEmptyWords) {
+  EXPECT_TRUE(split_at_commas("").empty());
+  EXPECT_EQ(split_at_commas("3,17"), (std::vector<std::string>{"3", "17"}));
+  EXPECT_EQ(split_at_commas("3,,"), (std::vector<std::string>{"3", "", ""}));
+}
+
 TEST(DidYouMean, FindsTypingErrorsAndBeginnings) {
   const std::vector<std::string> verbs{"learn", "info", "segment", "score"};
   EXPECT_EQ(did_you_mean("laern", verbs), "; did you mean 'learn'?");

@@ -26,6 +26,27 @@ void measure_lengths(const MotionTexture& model, SweepPoint& point) {
   }
 }
 
+/// Numbers that only this texton has.
+double own_parameters(const MotionTexture& model, std::size_t texton) {
+  const auto d = static_cast<double>(model.textons[texton].dynamics.state_size());
+  return (model.options.common_dynamics ? 0 : 2 * d * d) + d + d * (d + 1) / 2;
+}
+
+double description_length(const MotionTexture& model, double log_likelihood, double num_frames) {
+  std::vector<double> frames_of_texton(model.textons.size());
+  for (const Instance& instance : model.instances)
+    frames_of_texton[static_cast<std::size_t>(instance.texton)] += static_cast<double>(instance.length);
+  double nats = -log_likelihood, own = 0;
+  for (std::size_t i = 0; i < model.textons.size(); ++i) {
+    own += own_parameters(model, i);
+    nats += 0.5 * own_parameters(model, i) * std::log(std::max(frames_of_texton[i], 1.0));
+  }
+  nats += 0.5 * (count_parameters(model) - own) * std::log(num_frames);
+  const LearnOptions& options = model.options;
+  const double num_lengths = (options.max_duration - options.min_duration) / model.frame_time_secs() + 1;
+  return nats + static_cast<double>(model.instances.size()) * std::log(std::max(num_lengths, 1.0));
+}
+
 SweepPoint learn_point(const HeldOutSplit& split, const LearnOptions& options, const JobContext& job) {
   LearnReport report;
   const MotionTexture model = learn_motion_texture(split.training, options, report, part_of_job(job, 0, 0.9));
@@ -43,9 +64,8 @@ SweepPoint learn_point(const HeldOutSplit& split, const LearnOptions& options, c
   point.held_out_log_likelihood_per_frame = held_out.log_likelihood_per_frame;
   point.held_out_global_lds_log_likelihood_per_frame = held_out.global_lds_log_likelihood_per_frame;
   const double n = static_cast<double>(training.num_frames);
-  const double num_lengths = (options.max_duration - options.min_duration) / model.frame_time_secs() + 1;
   point.bic = n * training.log_likelihood_per_frame - 0.5 * point.num_parameters * std::log(n);
-  point.mdl = -point.bic + report.num_segments * std::log(std::max(num_lengths, 1.0));
+  point.mdl = description_length(model, n * training.log_likelihood_per_frame, n);
   return point;
 }
 
@@ -61,6 +81,14 @@ Axis threshold_axis(const std::string& unit) {
   return axis;
 }
 
+/// Place of a point on the logarithmic axis: 0, which it cannot show, stands a step before the first that it can.
+double threshold_place(const std::vector<SweepPoint>& points, const SweepPoint& point) {
+  if (point.threshold > 0) return point.threshold;
+  for (const SweepPoint& other : points)
+    if (other.threshold > 0) return other.threshold / 3;
+  return 1;
+}
+
 using Measure = double (*)(const SweepPoint&);
 
 Series series(const std::vector<SweepPoint>& points, const std::string& name, Measure measure) {
@@ -68,7 +96,7 @@ Series series(const std::vector<SweepPoint>& points, const std::string& name, Me
   out.name = name;
   out.mark = Mark::kLineAndPoints;
   for (const SweepPoint& point : points) {
-    out.x.push_back(point.threshold);
+    out.x.push_back(threshold_place(points, point));
     out.y.push_back(measure(point));
   }
   return out;
@@ -82,7 +110,8 @@ Drawing panel(const std::vector<SweepPoint>& points, const std::string& unit, co
   plot.y_axis.label = y_label;
   plot.series = std::move(lines);
   for (const SweepPoint& point : points)
-    if (point.is_auto) plot.x_markers.push_back({point.threshold, "auto"});
+    if (point.is_auto)
+      plot.x_markers.push_back({threshold_place(points, point), point.threshold > 0 ? "auto" : "auto, 0"});
   return draw(plot);
 }
 
@@ -94,10 +123,10 @@ double count_parameters(const MotionTexture& model) {
     const auto d = static_cast<double>(subspace.basis.cols());
     count += static_cast<double>(subspace.mean.size() + subspace.basis.size()) - d * (d + 1) / 2;
   }
-  for (std::size_t i = 0; i < model.textons.size(); ++i) {
-    const auto d = static_cast<double>(model.textons[i].dynamics.state_size());
-    const bool own_dynamics = i == 0 || !model.options.common_dynamics;
-    count += (own_dynamics ? 2 * d * d : 0) + d + d * (d + 1) / 2;
+  for (std::size_t i = 0; i < model.textons.size(); ++i) count += own_parameters(model, i);
+  if (model.options.common_dynamics && !model.textons.empty()) {
+    const auto d = static_cast<double>(model.textons[0].dynamics.state_size());
+    count += 2 * d * d;
   }
   const auto num_textons = static_cast<double>(model.textons.size());
   return count + num_textons * (num_textons - 1);
@@ -106,6 +135,7 @@ double count_parameters(const MotionTexture& model) {
 std::vector<SweepPoint> sweep_threshold(const HeldOutSplit& split, const std::vector<double>& thresholds,
                                         const LearnOptions& options, const JobContext& job) {
   constexpr double kFactors[] = {0.25, 0.4, 0.63, 1.6, 2.5, 4};
+  constexpr double kBayesFactors[] = {3, 10, 30, 100, 300, 1000};
   std::vector<double> wanted = thresholds;
   std::vector<SweepPoint> points;
   LearnOptions learn = options;
@@ -114,7 +144,8 @@ std::vector<SweepPoint> sweep_threshold(const HeldOutSplit& split, const std::ve
     done = 1.0 / 7;
     learn.threshold = 0;
     points.push_back(learn_point(split, learn, part_of_job(job, 0, done)));
-    for (const double factor : kFactors) wanted.push_back(factor * points[0].threshold);
+    const bool around = points[0].threshold > 0;
+    for (int i = 0; i < 6; ++i) wanted.push_back(around ? kFactors[i] * points[0].threshold : kBayesFactors[i]);
   }
   const double step = (1 - done) / static_cast<double>(wanted.size());
   for (const double threshold : wanted) {

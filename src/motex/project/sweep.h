@@ -24,8 +24,9 @@ struct SweepPoint {
   double held_out_global_lds_log_likelihood_per_frame = 0;
   /// log L − ½ k log n, nats, of the frames learned from; larger is better.
   double bic = 0;
-  /// Description length −log L + ½ k log n + segments · log(number of lengths a segment may have), nats; smaller is
-  /// better. BIC and the cost of saying where segments end, which log L does not hold.
+  /// Description length, nats; smaller is better: −log L, ½ log(frames of the texton) for each of a texton's own
+  /// numbers, ½ log n for each other one, and log(lengths that a segment may have) a segment, which log L does not
+  /// hold.
   double mdl = 0;
 };
 
@@ -33,8 +34,8 @@ struct SweepPoint {
 /// each subspace (mean D, basis D·d − d(d + 1)/2) and the deviation outside it. Dynamics that textons share count once.
 double count_parameters(const MotionTexture& model);
 
-/// Learns on split.training with each threshold (none: the automatic one and six around it, a quarter to four times as
-/// large) and scores split.held_out. Points come in order of threshold.
+/// Learns on split.training with each threshold (none: the automatic one and six more: a quarter to four times
+/// as large, or 3 … 1000 nats where it is 0) and scores split.held_out. Points come in order of threshold.
 std::vector<SweepPoint> sweep_threshold(const HeldOutSplit& split, const std::vector<double>& thresholds,
                                         const LearnOptions& options, const JobContext& job = {});
 
