@@ -23,18 +23,16 @@ struct Convert {
   void run(Session& session) {
     check_output(output, clip_output_extensions(), session);
     const Clip clip = read_clip(clip_path, read, session.job(0, 0.5));
-    if (session.flags.dry_run)
-      session.say("would write " + output);
-    else
-      write_clip_output(output, clip, {}, session);
+    if (!session.flags.dry_run) write_clip_output(output, clip, {}, session);
+    session.say((session.flags.dry_run ? "would write " : "wrote ") + output + ": " +
+                std::to_string(clip.num_frames()) + " frames at " + fixed(clip.frame_rate(), 2) + " Hz, " +
+                std::to_string(clip.skeleton.num_joints()) + " joints");
     Value object;
     object["frames"] = std::int64_t{clip.num_frames()};
     object["frame_rate"] = clip.frame_rate();
     object["joints"] = clip.skeleton.num_joints();
     object["metres_per_unit"] = clip.skeleton.metres_per_unit > 0 ? Value(clip.skeleton.metres_per_unit) : Value();
     object["output"] = output;
-    session.say(std::to_string(clip.num_frames()) + " frames at " + fixed(clip.frame_rate(), 2) + " Hz, " +
-                std::to_string(clip.skeleton.num_joints()) + " joints");
     session.result(object, "");
   }
 };

@@ -174,8 +174,6 @@ struct Learn {
     session.say("wrote " + output + ": " + std::to_string(report.num_textons) + " textons in " +
                 std::to_string(report.num_segments) + " segments, " + fixed(session.secs(), 1) + " s");
     session.say("next: motex motion synthesize " + output + " -o new.bvh --secs 60");
-    if (report.num_glitch_frames > 0)
-      session.say("left out " + std::to_string(report.num_glitch_frames) + " frames in which the body jumps");
   }
 };
 

@@ -26,10 +26,8 @@ struct View {
   void run(Session& session) {
     check_output(output, picture_extensions(), session);
     const Clip clip = read_clip(clip_path, read, session.job(0, 0.5));
-    if (session.flags.dry_run)
-      session.say("would write " + output);
-    else
-      write_clip_output(output, clip, {{}, "", strip}, session);
+    if (!session.flags.dry_run) write_clip_output(output, clip, {{}, "", strip}, session);
+    session.say((session.flags.dry_run ? "would write " : "wrote ") + output);
     Value object;
     object["frames"] = std::int64_t{clip.num_frames()};
     object["output"] = output;

@@ -75,6 +75,7 @@ void Session::say(const std::string& message) {
   if (flags.quiet) return;
   clear_progress();
   std::fprintf(stderr, "%s\n", message.c_str());
+  ++num_said_;
 }
 
 void Session::result(Value object, const std::string& text) {
@@ -97,7 +98,7 @@ void Session::finish() {
 
 void Session::fail(std::string_view error) {
   clear_progress();
-  if (!flags.quiet)
+  if (!flags.quiet && num_said_ <= 1)  // a failure takes three lines at most
     for (const std::string& line : fold_warnings(warnings_, 1)) print_marked("warning", "33", line);
   warnings_.clear();
   print_marked("error", "31", on_one_line(std::string(error)));

@@ -39,7 +39,7 @@ class Session {
 
   /// Prints warnings, then the result. Throws WriteError when stdout does not take it.
   void finish();
-  /// Prints one line of warnings, if any, and the error.
+  /// Prints one line of warnings, if there are any and room is left, and the error.
   void fail(std::string_view error);
 
  private:
@@ -48,6 +48,7 @@ class Session {
   std::vector<std::string> warnings_;
   Value object_;
   std::string text_;
+  int num_said_ = 0;
   std::size_t progress_width_ = 0;
   double last_shown_secs_ = -1;
 };
