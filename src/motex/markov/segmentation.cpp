@@ -52,7 +52,7 @@ SegmentationReport segment_as_one(const SegmentationInput& input) {
   return report;
 }
 
-// The forward pass. Rows of N numbers, one a state; names as in the header.
+// The forward pass. Rows of N numbers, one a state; in formulas the letters of the header.
 class Recursion {
  public:
   explicit Recursion(const SegmentationInput& input);
@@ -79,15 +79,15 @@ class Recursion {
   void admit_candidates(Index b);
   void close_frame(Index t);
   SegmentationReport trace_back() const;
-  double* candidates(Index b) { return &candidates_[static_cast<std::size_t>(b % min_length_ * N_)]; }
+  double* candidates(Index b) { return &candidates_[static_cast<std::size_t>(b % min_length_ * num_states_)]; }
 
   const SegmentationInput& input_;
   const LogTransitions transitions_;
-  const Index T_, N_, min_length_, num_start_frames_;
+  const Index num_frames_, num_states_, min_length_, num_start_frames_;
   const bool has_prior_;
-  std::vector<double> S_, G_;
-  std::vector<double> candidates_;  // T_min × N ring of E_i(b) + init(b) − S_i(b+s−1) that are still too short
-  SlidingMaximum H_;
+  std::vector<double> sums_, ends_;  // N: S_i and G_i after the last frame
+  std::vector<double> candidates_;   // T_min × N ring of E_i(b) + init(b) − S_i(b+s−1) that are still too short
+  SlidingMaximum openings_;          // H_i and the b that gives it
   std::unique_ptr<std::int32_t[]> starts_;   // T × N: start of the best last segment that ends at t
   std::vector<double> largest_counted_;      // N: largest log M_lj of a counted transition from l
   std::vector<BestEnd> best_uncounted_;      // T: of E_i(t)
@@ -106,22 +106,22 @@ Index window_of(const SegmentationInput& input) {
 Recursion::Recursion(const SegmentationInput& input)
     : input_(input),
       transitions_(input.transitions.log_transitions()),
-      T_(input.emissions.rows()),
-      N_(input.emissions.cols()),
+      num_frames_(input.emissions.rows()),
+      num_states_(input.emissions.cols()),
       min_length_(input.options.min_length),
       num_start_frames_(input.options.num_start_frames),
       has_prior_(input.transitions.prior_count() > 0),
-      H_(N_, window_of(input)) {
-  const auto n = static_cast<std::size_t>(N_), frames = static_cast<std::size_t>(T_);
-  S_.assign(n, 0);
-  G_.assign(n, kImpossible);
+      openings_(num_states_, window_of(input)) {
+  const auto n = static_cast<std::size_t>(num_states_), frames = static_cast<std::size_t>(num_frames_);
+  sums_.assign(n, 0);
+  ends_.assign(n, kImpossible);
   candidates_.resize(static_cast<std::size_t>(min_length_) * n);
   starts_ = std::make_unique_for_overwrite<std::int32_t[]>(frames * n);
   best_uncounted_.resize(frames);
   winners_begin_.assign(frames + 1, 0);
   improved_from_.assign(n, -1);
   if (!has_prior_) winners_.reserve(frames * n);  // nearly all are; pages count only when they are written
-  for (int l = 0; l < N_; ++l) {
+  for (int l = 0; l < num_states_; ++l) {
     double largest = kImpossible;
     for (const auto& entry : transitions_.row(l)) largest = std::max(largest, entry.log_prob);
     largest_counted_.push_back(largest);
@@ -129,7 +129,7 @@ Recursion::Recursion(const SegmentationInput& input)
 }
 
 SegmentationReport Recursion::run() {
-  for (Index t = 0; t < T_; ++t) {
+  for (Index t = 0; t < num_frames_; ++t) {
     find_best_ends(t);
     if (num_start_frames_ == 0) open_candidates(t);
     add_frame(t);
@@ -145,10 +145,10 @@ void Recursion::find_best_ends(Index b) {
   const auto k = static_cast<std::size_t>(b);
   double* E = candidates(b);
   if (b == 0) {
-    std::fill_n(E, N_, 0.0);
+    std::fill_n(E, num_states_, 0.0);
   } else {
     if (has_prior_) find_best_uncounted(b);
-    std::fill_n(E, N_, best_uncounted_[k].score);
+    std::fill_n(E, num_states_, best_uncounted_[k].score);
     if (improve_by_counted(best_uncounted_[k].score, E)) keep_winners();
   }
   winners_begin_[k + 1] = winners_.size();
@@ -156,8 +156,8 @@ void Recursion::find_best_ends(Index b) {
 
 bool Recursion::improve_by_counted(double uncounted, double* E) {
   bool any = false;
-  for (int l = 0; l < N_; ++l) {
-    const double G = G_[static_cast<std::size_t>(l)];
+  for (int l = 0; l < num_states_; ++l) {
+    const double G = ends_[static_cast<std::size_t>(l)];
     if (G + largest_counted_[static_cast<std::size_t>(l)] <= uncounted) continue;  // most rows, when there is a prior
     any = true;
     for (const auto& entry : transitions_.row(l)) {
@@ -173,8 +173,8 @@ bool Recursion::improve_by_counted(double uncounted, double* E) {
 
 void Recursion::keep_winners() {
   std::size_t count = winners_.size();
-  winners_.resize(count + static_cast<std::size_t>(N_));
-  for (std::int32_t i = 0; i < N_; ++i) {
+  winners_.resize(count + static_cast<std::size_t>(num_states_));
+  for (std::int32_t i = 0; i < num_states_; ++i) {
     std::int32_t& from = improved_from_[static_cast<std::size_t>(i)];
     winners_[count] = {i, from};
     count += from >= 0 ? 1 : 0;
@@ -186,12 +186,12 @@ void Recursion::keep_winners() {
 // max_l [G_l(b−1) + base_l] is the same for every state.
 void Recursion::find_best_uncounted(Index b) {
   constexpr Index kLanes = 8;  // independent maxima, which vectorise
-  const double* G = G_.data();
+  const double* G = ends_.data();
   const double* base = transitions_.base.data();
   std::array<double, kLanes> lanes;
   lanes.fill(kImpossible);
   Index i = 0;
-  for (; i + kLanes <= N_; i += kLanes) {
+  for (; i + kLanes <= num_states_; i += kLanes) {
     for (Index k = 0; k < kLanes; ++k) {
       const double end = G[i + k] + base[i + k];
       const auto lane = static_cast<std::size_t>(k);
@@ -199,9 +199,9 @@ void Recursion::find_best_uncounted(Index b) {
     }
   }
   double best = *std::max_element(lanes.begin(), lanes.end());
-  for (; i < N_; ++i) best = std::max(best, G[i] + base[i]);
+  for (; i < num_states_; ++i) best = std::max(best, G[i] + base[i]);
   Index l = 0;
-  while (l + 1 < N_ && G[l] + base[l] != best) ++l;
+  while (l + 1 < num_states_ && G[l] + base[l] != best) ++l;
   best_uncounted_[static_cast<std::size_t>(b)] = {best, static_cast<std::int32_t>(l)};
 }
 
@@ -210,29 +210,29 @@ void Recursion::open_candidates(Index b) {
   const double init = start_density(input_, b);
   if (!(init < std::numeric_limits<double>::infinity())) throw_not_a_density("the start density", b);
   double* __restrict row = candidates(b);
-  const double* __restrict S = S_.data();
-  for (Index i = 0; i < N_; ++i) row[i] = row[i] + init - S[i];
+  const double* __restrict S = sums_.data();
+  for (Index i = 0; i < num_states_; ++i) row[i] = row[i] + init - S[i];
 }
 
 void Recursion::add_frame(Index t) {
   const float* __restrict F = input_.emissions.data() + t * input_.emissions.outerStride();
   int num_odd = 0;
-  for (Index i = 0; i < N_; ++i) num_odd += std::abs(F[i]) <= kLargestFloat ? 0 : 1;
+  for (Index i = 0; i < num_states_; ++i) num_odd += std::abs(F[i]) <= kLargestFloat ? 0 : 1;
   if (num_odd > 0) return add_odd_frame(t, F);
-  double* __restrict S = S_.data();
-  for (Index i = 0; i < N_; ++i) S[i] += static_cast<double>(F[i]);
+  double* __restrict S = sums_.data();
+  for (Index i = 0; i < num_states_; ++i) S[i] += static_cast<double>(F[i]);
 }
 
 // −∞ stays out of the sums, which could not be undone; it ends all that the state had begun instead.
 void Recursion::add_odd_frame(Index t, const float* F) {
-  if (last_impossible_.empty()) last_impossible_.assign(static_cast<std::size_t>(N_), -1);
-  for (Index i = 0; i < N_; ++i) {
+  if (last_impossible_.empty()) last_impossible_.assign(static_cast<std::size_t>(num_states_), -1);
+  for (Index i = 0; i < num_states_; ++i) {
     if (!(F[i] <= kLargestFloat)) throw_not_a_density("the emission", t);
     const auto k = static_cast<std::size_t>(i);
     if (F[i] >= -kLargestFloat) {
-      S_[k] += static_cast<double>(F[i]);
+      sums_[k] += static_cast<double>(F[i]);
     } else {
-      H_.forget(i);
+      openings_.forget(i);
       last_impossible_[k] = t;
     }
   }
@@ -242,19 +242,20 @@ void Recursion::add_odd_frame(Index t, const float* F) {
 void Recursion::admit_candidates(Index b) {
   double* row = candidates(b);
   if (!last_impossible_.empty()) {
-    for (Index i = 0; i < N_; ++i) {
+    for (Index i = 0; i < num_states_; ++i) {
       if (b + num_start_frames_ <= last_impossible_[static_cast<std::size_t>(i)]) row[i] = kImpossible;
     }
   }
-  H_.push(row);
+  openings_.push(row);
 }
 
 void Recursion::close_frame(Index t) {
-  const double* __restrict S = S_.data();
-  const double* __restrict H = H_.values().data();
-  double* __restrict G = G_.data();
-  for (Index i = 0; i < N_; ++i) G[i] = S[i] + H[i];
-  std::copy(H_.positions().begin(), H_.positions().end(), &starts_[static_cast<std::size_t>(t * N_)]);
+  const double* __restrict S = sums_.data();
+  const double* __restrict H = openings_.values().data();
+  double* __restrict G = ends_.data();
+  for (Index i = 0; i < num_states_; ++i) G[i] = S[i] + H[i];
+  std::copy(openings_.positions().begin(), openings_.positions().end(),
+            &starts_[static_cast<std::size_t>(t * num_states_)]);
 }
 
 int Recursion::predecessor(Index b, int state) const {
@@ -267,12 +268,12 @@ int Recursion::predecessor(Index b, int state) const {
 
 SegmentationReport Recursion::trace_back() const {
   SegmentationReport report;
-  const auto best = std::max_element(G_.begin(), G_.end());
+  const auto best = std::max_element(ends_.begin(), ends_.end());
   if (*best == kImpossible) return report;
   report.score = *best;
-  auto state = static_cast<int>(best - G_.begin());
-  for (Index end = T_;;) {
-    const Index b = starts_[static_cast<std::size_t>((end - 1) * N_ + state)];
+  auto state = static_cast<int>(best - ends_.begin());
+  for (Index end = num_frames_;;) {
+    const Index b = starts_[static_cast<std::size_t>((end - 1) * num_states_ + state)];
     report.segments.push_back({state, b, end - b});
     if (b == 0) break;
     state = predecessor(b, state);

@@ -46,7 +46,7 @@ SegmentationReport segment_brute_force(const SegmentationInput& input) {
   check_segmentation_input(input);
   const Index T = input.emissions.rows();
   const auto N = static_cast<int>(input.emissions.cols());
-  const Matrix log_M = log_matrix(input.transitions);
+  const Matrix log_m = log_matrix(input.transitions);
   std::vector<Reached> best(static_cast<std::size_t>(T * N));
   const auto at = [&](Index t, int i) -> Reached& { return best[static_cast<std::size_t>(t * N + i)]; };
   for (Index b = 0; b < T; ++b) {
@@ -54,7 +54,7 @@ SegmentationReport segment_brute_force(const SegmentationInput& input) {
       double before = b == 0 ? 0 : kImpossible;
       int predecessor = -1;
       for (int l = 0; b > 0 && l < N; ++l) {
-        const double end = at(b - 1, l).score + log_M(l, i);
+        const double end = at(b - 1, l).score + log_m(l, i);
         if (end > before) before = end, predecessor = l;
       }
       for_each_end(input, b, i, before, [&](Index t, double score) {
@@ -80,7 +80,7 @@ SegmentationReport segment_one_label(const SegmentationInput& input) {
   check_segmentation_input(input);
   const Index T = input.emissions.rows();
   const auto N = static_cast<int>(input.emissions.cols());
-  const Matrix log_M = log_matrix(input.transitions);
+  const Matrix log_m = log_matrix(input.transitions);
   const Index most = std::max<Index>(1, T / input.options.min_length);
   std::vector<std::vector<Reached>> best(static_cast<std::size_t>(most),
                                          std::vector<Reached>(static_cast<std::size_t>(T)));  // (n − 1, t)
@@ -90,7 +90,7 @@ SegmentationReport segment_one_label(const SegmentationInput& input) {
       const Reached* before = n == 0 ? nullptr : &best[n - 1][static_cast<std::size_t>(b - 1)];
       if (before != nullptr && before->score == kImpossible) continue;
       for (int i = 0; i < N; ++i) {
-        for_each_end(input, b, i, before == nullptr ? 0 : before->score + log_M(before->state, i),
+        for_each_end(input, b, i, before == nullptr ? 0 : before->score + log_m(before->state, i),
                      [&](Index t, double score) {
                        Reached& reached = best[n][static_cast<std::size_t>(t)];
                        if (score > reached.score) reached = {score, i, b, -1};
