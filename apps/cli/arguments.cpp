@@ -139,7 +139,7 @@ void FieldDeclarer::number(const Field& field, T& value, const Range& range) con
 }
 
 void FieldDeclarer::declare_choice(const Field& field, std::size_t current, const std::vector<std::string>& names,
-                                   std::function<void(std::size_t)> assign) const {
+                                   const std::function<void(std::size_t)>& assign) const {
   const std::string flag = flag_name(field.name);
   std::string placeholder;
   for (const std::string& name : names) placeholder += (placeholder.empty() ? "" : "|") + name;

@@ -112,7 +112,7 @@ struct FieldDeclarer {
   template <typename T>
   void number(const Field& field, T& value, const Range& range) const;
   void declare_choice(const Field& field, std::size_t current, const std::vector<std::string>& names,
-                      std::function<void(std::size_t)> assign) const;
+                      const std::function<void(std::size_t)>& assign) const;
 };
 
 template <typename Options>

@@ -160,7 +160,7 @@ std::vector<SweepPoint> sweep_threshold(const HeldOutSplit& split, const std::ve
 }
 
 Drawing draw_sweep(const std::vector<SweepPoint>& points, const std::string& unit) {
-  const auto lines = [&](std::vector<std::pair<std::string, Measure>> measures) {
+  const auto lines = [&](const std::vector<std::pair<std::string, Measure>>& measures) {
     std::vector<Series> all;
     for (const auto& [name, measure] : measures) all.push_back(series(points, name, measure));
     return all;
