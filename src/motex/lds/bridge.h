@@ -14,8 +14,8 @@ namespace motex {
 /// minimises Σ_t |B⁻¹(x_t − A₁ x_{t−1} − A₂ x_{t−2} − D) − ε_t|². With ε ~ N(0, I) it is an exact sample of the system
 /// given both ends.
 ///
-/// In whitened coordinates z = B⁻¹x with s_t = [z_t; z_{t−1}], Φ the companion matrix and n = l − 2 steps, the minimiser
-/// is the free run of ε plus the response to the smallest extra noise that leads to the end:
+/// In whitened coordinates z = B⁻¹x with s_t = [z_t; z_{t−1}], Φ the companion matrix and n = l − 2 steps, the
+/// minimiser is the free run of ε plus the response to the smallest extra noise that leads to the end:
 ///
 ///   P_n λ_l = s_l − s_l(free),   P_n = Σ_{k<n} Φᵏ Q Φᵏᵀ,   λ_{t−1} = Φᵀ λ_t,   ε'_t = ε_t + upper half of λ_t
 ///

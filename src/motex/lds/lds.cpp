@@ -67,7 +67,8 @@ Lds fit_lds(const LdsStatistics& statistics, const LdsPrior& prior) {
   const Matrix s = own.scatter + prior.frames * prior.covariance;
   const Index d = statistics.state_size();
   const Eigen::LLT<Matrix> regressors(s.bottomRightCorner(2 * d, 2 * d));
-  if (regressors.info() != Eigen::Success) throw NumericalFailure("the states of a texton do not vary enough to be fitted");
+  if (regressors.info() != Eigen::Success)
+    throw NumericalFailure("the states of a texton do not vary enough to be fitted");
   const Matrix transition = regressors.solve(s.bottomLeftCorner(2 * d, d)).transpose();
   return fit_given(transition, own, s, prior);
 }
@@ -100,7 +101,8 @@ LdsEvidence::LdsEvidence(const LdsStatistics& corpus, double prior_frames) : d_(
   if (!(corpus.count() > 0)) throw InvalidInput("a prior needs at least one frame");
   prior_.resize(n, n);
   for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) prior_(i, j) = corpus.moments(reordered(i, d_), reordered(j, d_)) * nu0_ / corpus.count();
+    for (Index j = 0; j < n; ++j)
+      prior_(i, j) = corpus.moments(reordered(i, d_), reordered(j, d_)) * nu0_ / corpus.count();
   prior_.diagonal().array() += 1e-9 * prior_.trace() / static_cast<double>(n) + 1e-12;
   const Eigen::LLT<Matrix> llt(prior_);
   if (llt.info() != Eigen::Success) throw NumericalFailure("the corpus does not vary enough to be a prior");

@@ -8,7 +8,8 @@
 
 namespace motex {
 
-/// x_t = A₁ x_{t−1} + A₂ x_{t−2} + D + B v_t,  v_t ~ N(0, I),  noise covariance B Bᵀ  [MT02 eq. 10, with BBᵀ for its BᵀB].
+/// x_t = A₁ x_{t−1} + A₂ x_{t−2} + D + B v_t,  v_t ~ N(0, I),  noise covariance B Bᵀ  [MT02 eq. 10, with BBᵀ for its
+/// BᵀB].
 struct Lds {
   Matrix transition;   ///< [A₁ A₂], d × 2d
   Vector offset;       ///< D, d
@@ -21,8 +22,8 @@ struct Lds {
   void set_noise(const Matrix& covariance);
 };
 
-/// What is believed of (A, BBᵀ) before a texton's frames are seen: `frames` pseudo-frames with the moments of the corpus,
-/// moved to the texton's own means (D has a flat prior).
+/// What is believed of (A, BBᵀ) before a texton's frames are seen: `frames` pseudo-frames with the moments of the
+/// corpus, moved to the texton's own means (D has a flat prior).
 struct LdsPrior {
   Vector mean;        ///< 3d: of u without its 1; gives D where a texton has no frame
   Matrix covariance;  ///< 3d × 3d: scatter per frame

@@ -143,8 +143,10 @@ FrameMatrix dense_bridge(const Lds& lds, FrameMatrix states, const FrameMatrix& 
     Vector rhs = noise.row(e).transpose() - w.col(3 * d);
     for (Index lag = 0; lag < 3; ++lag) {
       const Index t = e + 2 - lag;
-      if (t >= 2 && t < l - 2) a.block(e * d, (t - 2) * d, d, d) = w.middleCols(lag * d, d);
-      else rhs -= w.middleCols(lag * d, d) * states.row(t).transpose();
+      if (t >= 2 && t < l - 2)
+        a.block(e * d, (t - 2) * d, d, d) = w.middleCols(lag * d, d);
+      else
+        rhs -= w.middleCols(lag * d, d) * states.row(t).transpose();
     }
     b.segment(e * d, d) = rhs;
   }

@@ -19,8 +19,10 @@ void LdsStatistics::add(const FrameMatrix& states, Index first, Index length) {
 }
 
 LdsStatistics& LdsStatistics::operator+=(const LdsStatistics& other) {
-  if (moments.size() == 0) moments = other.moments;
-  else moments += other.moments;
+  if (moments.size() == 0)
+    moments = other.moments;
+  else
+    moments += other.moments;
   return *this;
 }
 

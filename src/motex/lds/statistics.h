@@ -6,8 +6,8 @@
 
 namespace motex {
 
-/// Sufficient statistics of a second-order linear dynamic system: M = Σ_t u_t u_tᵀ with u_t = [x_t; x_{t−1}; x_{t−2}; 1].
-/// They add over segments, so any grouping of segments can be fitted without touching frames again.
+/// Sufficient statistics of a second-order linear dynamic system: M = Σ_t u_t u_tᵀ with u_t = [x_t; x_{t−1}; x_{t−2};
+/// 1]. They add over segments, so any grouping of segments can be fitted without touching frames again.
 struct LdsStatistics {
   Matrix moments;  ///< (3d + 1) × (3d + 1), symmetric
 

@@ -50,8 +50,9 @@ Corpus make_corpus(const FeatureSpace& space, std::span<const Clip> clips, Index
     }
   }
   if (corpus.num_glitch_frames > 0)
-    job.warn("left out " + std::to_string(corpus.num_glitch_frames) + " frames of " + std::to_string(clips_with_glitches) +
-             (clips_with_glitches == 1 ? " clip" : " clips") + " in which the body jumps; --keep-glitches keeps them");
+    job.warn("left out " + std::to_string(corpus.num_glitch_frames) + " frames of " +
+             std::to_string(clips_with_glitches) + (clips_with_glitches == 1 ? " clip" : " clips") +
+             " in which the body jumps; --keep-glitches keeps them");
   Index room = 0;  // for segments; one alone has nothing to be followed by
   for (const Run& run : corpus.runs) room += (run.length - 2) / min_frames;
   if (room < 2) {

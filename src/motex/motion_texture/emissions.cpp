@@ -37,7 +37,8 @@ EmissionBank::EmissionBank(const FrameMatrix& features, const std::vector<Run>& 
     if (is_shared_) {
       const Vector x = shared->basis.transpose() * y;
       inputs_.row(t) = x.transpose().cast<float>();
-      outside = -scale * std::max(0.0, y.squaredNorm() - x.squaredNorm()) - 0.5 * log_2pi(num_features_ - m, deviation_);
+      outside =
+          -scale * std::max(0.0, y.squaredNorm() - x.squaredNorm()) - 0.5 * log_2pi(num_features_ - m, deviation_);
     } else {
       inputs_.row(t) = y.transpose().cast<float>();
       outside = y.squaredNorm();

@@ -73,7 +73,8 @@ double ExpectationMaximisation::choose_deviation() const {
   const auto dims = static_cast<double>(corpus_.features.cols());
   if (fitter_.is_shared()) {
     const auto& shared = fitter_.shared();
-    squares = (corpus_.features.rowwise() - shared.mean.transpose()).squaredNorm() - fitter_.shared_states().squaredNorm();
+    squares =
+        (corpus_.features.rowwise() - shared.mean.transpose()).squaredNorm() - fitter_.shared_states().squaredNorm();
     count = static_cast<double>(corpus_.features.rows()) * (dims - static_cast<double>(shared.basis.cols()));
   } else {
     for (const TextonFit& fit : fits_) {
@@ -97,8 +98,8 @@ void ExpectationMaximisation::maximise(const JobContext& job) {
   fitted_to_ = own;
   if (!bank_) {
     deviation_ = choose_deviation();
-    bank_ = std::make_unique<EmissionBank>(corpus_.features, corpus_.runs, fitter_.is_shared() ? &fitter_.shared() : nullptr,
-                                           deviation_);
+    bank_ = std::make_unique<EmissionBank>(corpus_.features, corpus_.runs,
+                                           fitter_.is_shared() ? &fitter_.shared() : nullptr, deviation_);
     emissions_.resize(corpus_.features.rows(), static_cast<Index>(fits_.size()));
   }
   for (const int i : changed) {
@@ -121,8 +122,7 @@ double ExpectationMaximisation::expect(const JobContext& job) {
     job.check_cancelled();
     const auto i = static_cast<std::size_t>(r);
     const Run& run = corpus_.runs[i];
-    SegmentationReport report =
-        segment_sequence({emissions_.middleRows(run.row, run.length), {}, transitions_, rules});
+    SegmentationReport report = segment_sequence({emissions_.middleRows(run.row, run.length), {}, transitions_, rules});
     if (!report.is_feasible())
       throw InvalidInput("no lengths between min_duration and max_duration add up to a stretch of " +
                          std::to_string(run.length) + " frames");

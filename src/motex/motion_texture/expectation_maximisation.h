@@ -17,8 +17,8 @@ namespace motex {
 /// Only textons whose segments changed are fitted and evaluated again.
 class ExpectationMaximisation {
  public:
-  ExpectationMaximisation(const Corpus& corpus, const TextonFitter& fitter, const LearnOptions& options, Index min_frames,
-                          Index max_frames, Segmentation start);
+  ExpectationMaximisation(const Corpus& corpus, const TextonFitter& fitter, const LearnOptions& options,
+                          Index min_frames, Index max_frames, Segmentation start);
 
   /// One M-step and one E-step. Returns J after it. converged() when the segmentation did not change.
   double iterate(const JobContext& job);

@@ -157,7 +157,8 @@ void find_weights(FeatureSpace& space) {
 }
 
 /// World position and rotation of the travelling joint.
-void travelling_pose(const FeatureSpace& space, const Above& above, const Clip& clip, Index t, Vector3& position, Quat& q) {
+void travelling_pose(const FeatureSpace& space, const Above& above, const Clip& clip, Index t, Vector3& position,
+                     Quat& q) {
   position = above.position + above.rotation * clip.translation(t, space.travelling_joint);
   q = above.rotation * clip.rotation(t, space.travelling_joint);
 }
@@ -170,7 +171,8 @@ FeatureSpace make_feature_space(std::span<const Clip> clips, const JobContext& j
     check_clip(clip);
     const std::string difference = skeleton_difference(clips[0].skeleton, clip.skeleton);
     if (!difference.empty()) throw InvalidInput(clips[0].name + " and " + clip.name + ": " + difference);
-    if (clip.num_frames() < 2) throw InvalidInput(clip.name + ": has " + std::to_string(clip.num_frames()) + " frames; motion needs at least 2");
+    if (clip.num_frames() < 2)
+      throw InvalidInput(clip.name + ": has " + std::to_string(clip.num_frames()) + " frames; motion needs at least 2");
     if (std::abs(clip.frame_time_secs / clips[0].frame_time_secs - 1) > 1e-4)
       throw InvalidInput(clips[0].name + " and " + clip.name + ": have different frame rates; resample one of them");
   }
@@ -207,7 +209,8 @@ FrameMatrix encode(const FeatureSpace& space, const Clip& clip, const JobContext
     throw InvalidInput(clip.name + ": has " + std::to_string(clip.frame_rate()) + " frames a second, the model " +
                        std::to_string(1 / space.frame_time_secs) + "; use --resample or --fps");
   const Index frames = clip.num_frames();
-  if (frames < 2) throw InvalidInput(clip.name + ": has " + std::to_string(frames) + " frames; motion needs at least 2");
+  if (frames < 2)
+    throw InvalidInput(clip.name + ": has " + std::to_string(frames) + " frames; motion needs at least 2");
   FrameMatrix y(frames, space.size());
   const Above above = above_travelling_joint(space);
   Vector3 before = Vector3::Zero(), position;
@@ -219,7 +222,8 @@ FrameMatrix encode(const FeatureSpace& space, const Clip& clip, const JobContext
     if (!heading_of(q, heading)) upside_down = true;
     const Vector3 tilt = log_map(heading_rotation(heading).conjugate() * q);
     const Vector3 step = heading_rotation(-heading_before) * (position - before);
-    y.row(t).head<kRootChannels>() << step.x(), step.z(), position.y(), wrap_angle(heading - heading_before), tilt.x(), tilt.z();
+    y.row(t).head<kRootChannels>() << step.x(), step.z(), position.y(), wrap_angle(heading - heading_before), tilt.x(),
+        tilt.z();
     before = position;
     heading_before = heading;
     for (std::size_t i = 0; i < space.joints.size(); ++i) {
@@ -245,7 +249,8 @@ RootPlace root_place(const FeatureSpace& space, const Clip& clip, Index frame) {
   return place;
 }
 
-void decode_frame(const FeatureSpace& space, const double* features, bool first, RootPlace& place, Clip& out, Index frame) {
+void decode_frame(const FeatureSpace& space, const double* features, bool first, RootPlace& place, Clip& out,
+                  Index frame) {
   const double* w = space.weights.data();
   if (!first) {
     const double vx = features[0] / w[0], vz = features[1] / w[1];

@@ -24,19 +24,20 @@ struct FeatureSpace {
   double frame_time_secs = 1.0 / 60;
   double cm_per_unit = 1;
   int travelling_joint = 0;
-  std::vector<int> joints;     ///< joints of channels 6 …, in order
-  FrameMatrix references;      ///< joints of the skeleton × 4: q_ref, w x y z; the held rotation of those without channels
-  FrameMatrix held;            ///< joints of the skeleton × 3: translation where none is a channel
-  Vector weights;              ///< D
+  std::vector<int> joints;  ///< joints of channels 6 …, in order
+  FrameMatrix references;  ///< joints of the skeleton × 4: q_ref, w x y z; the held rotation of those without channels
+  FrameMatrix held;        ///< joints of the skeleton × 3: translation where none is a channel
+  Vector weights;          ///< D
 
   Index size() const { return weights.size(); }
 };
 
-/// Chooses the travelling joint, references and weights [docs/papers/motion-texture.md] for clips of one skeleton and rate.
+/// Chooses the travelling joint, references and weights [docs/papers/motion-texture.md] for clips of one skeleton and
+/// rate.
 FeatureSpace make_feature_space(std::span<const Clip> clips, const JobContext& job = {});
 
-/// Weighted features, frames × D. Throws InvalidInput when the clip's skeleton or rate is not the space's, or it has fewer
-/// than 2 frames.
+/// Weighted features, frames × D. Throws InvalidInput when the clip's skeleton or rate is not the space's, or it has
+/// fewer than 2 frames.
 FrameMatrix encode(const FeatureSpace& space, const Clip& clip, const JobContext& job = {});
 
 /// Where the travelling joint stands and looks; heading ψ in radians.
@@ -47,7 +48,8 @@ struct RootPlace {
 RootPlace root_place(const FeatureSpace& space, const Clip& clip, Index frame);
 
 /// Writes one frame of features (D) as a pose of `out` and moves `place` on. With `first` the place is kept as it is.
-void decode_frame(const FeatureSpace& space, const double* features, bool first, RootPlace& place, Clip& out, Index frame);
+void decode_frame(const FeatureSpace& space, const double* features, bool first, RootPlace& place, Clip& out,
+                  Index frame);
 
 /// A clip of frames in which everything is held at its mean: what decode_frame() writes into.
 Clip make_held_clip(const FeatureSpace& space, Index num_frames);

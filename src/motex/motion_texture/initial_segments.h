@@ -13,8 +13,8 @@ namespace motex {
 Segmentation greedy_segments(const Corpus& corpus, const TextonFitter& fitter, double threshold, Index min_frames,
                              Index max_frames, const JobContext& job);
 
-/// Pieces of min_frames, merged while the log Bayes factor of one system against two exceeds threshold (nats). Each piece
-/// is compared with the pieces whose residuals under the global system are sized most alike.
+/// Pieces of min_frames, merged while the log Bayes factor of one system against two exceeds threshold (nats). Each
+/// piece is compared with the pieces whose residuals under the global system are sized most alike.
 Segmentation merged_segments(const Corpus& corpus, const TextonFitter& fitter, double threshold, Index min_frames,
                              const JobContext& job);
 

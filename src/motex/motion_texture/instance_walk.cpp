@@ -6,12 +6,20 @@
 #include <cmath>
 #include <limits>
 
+#include "motex/core/error.h"
 #include "motex/markov/graph.h"
 #include "motex/motion_texture/jumps.h"
 
 namespace motex {
 namespace {
 
+constexpr double kPatience = 0.65;
+constexpr double kCuriosity = 6;
+constexpr double kFarthest = 1.25;  // τ
+constexpr std::size_t kMostFollowers = 24;
+constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
+
+/// Median over instances of the distance to the nearest key poses that do not follow in the source.
 double usual_jump_distance(const MotionTexture& model) {
   std::vector<double> nearest;
   for (std::size_t a = 0; a < model.instances.size(); ++a) {
@@ -29,69 +37,129 @@ double usual_jump_distance(const MotionTexture& model) {
 
 }  // namespace
 
-InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless)
+InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path,
+                           bool endless)
     : model_(model),
       key_poses_(options.key_poses),
       path_(std::move(path)),
       endless_(endless),
       rng_(Rng(options.seed).fork(1)),
+      tau_(options.nearness * usual_jump_distance(model)),
       texton_allowed_(model.textons.size(), false),
-      times_played_(model.instances.size(), 0) {
+      freshness_(model.instances.size(), 1),
+      value_(model.instances.size(), 1) {
   for (const int texton : path_)
     if (texton < 0 || texton >= static_cast<int>(model.textons.size()))
       throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
                          std::to_string(model.textons.size() - 1));
-  tau_ = options.nearness * usual_jump_distance(model);
   const Components components = strongly_connected_components(counted_graph(model.transitions));
   for (const int texton : components.largest()) texton_allowed_[static_cast<std::size_t>(texton)] = true;
-  for (std::size_t i = 0; i < model.instances.size(); ++i)
-    if (is_allowed(static_cast<int>(i))) allowed_.push_back(static_cast<int>(i));
+  for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) {
+    const int texton = model.instances[static_cast<std::size_t>(i)].texton;
+    if (texton_allowed_[static_cast<std::size_t>(texton)]) allowed_.push_back(i);
+  }
+  for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) followers_.push_back(followers_of(i));
+  lead_into_every_instance();
 }
 
-bool InstanceWalk::is_allowed(int instance) const {
-  return texton_allowed_[static_cast<std::size_t>(model_.instances[static_cast<std::size_t>(instance)].texton)];
+/// An instance that starts a clip follows nothing, and may lie near no end: the nearest possible end is made to lead
+/// there.
+void InstanceWalk::lead_into_every_instance() {
+  std::vector<bool> is_reached(model_.instances.size(), false);
+  for (const int a : allowed_)
+    for (const Follower& b : followers_[static_cast<std::size_t>(a)])
+      if (b.instance != a) is_reached[static_cast<std::size_t>(b.instance)] = true;
+  for (const int b : allowed_) {
+    if (is_reached[static_cast<std::size_t>(b)]) continue;
+    double best = std::numeric_limits<double>::infinity();
+    int nearest = -1;
+    for (const int a : allowed_) {
+      if (a == b || transition(a, b) <= 0) continue;
+      const double d = distance(a, b);
+      if (d < best) best = d, nearest = a;
+    }
+    if (nearest < 0) continue;
+    auto& list = followers_[static_cast<std::size_t>(nearest)];
+    list.push_back({b, transition(nearest, b) * std::exp(-kFarthest)});
+  }
 }
 
-int InstanceWalk::choose(const std::vector<int>& among, const std::vector<double>* transition_row) {
-  std::vector<double> weights(among.size(), 0);
-  const Index end = current_ < 0 ? 0 : hand_over_row(model_, model_.instances[static_cast<std::size_t>(current_)]);
-  double nearest = std::numeric_limits<double>::infinity();
-  std::vector<double> distances(among.size(), 0);
-  const auto transition = [&](std::size_t k) {
-    const Instance& b = model_.instances[static_cast<std::size_t>(among[k])];
-    return transition_row != nullptr ? (*transition_row)[static_cast<std::size_t>(b.texton)] : 1.0;
+double InstanceWalk::transition(int from, int to) const {
+  return model_.transitions.probability(model_.instances[static_cast<std::size_t>(from)].texton,
+                                        model_.instances[static_cast<std::size_t>(to)].texton);
+}
+
+double InstanceWalk::distance(int from, int to) const {
+  if (key_poses_ == KeyPoses::kRandom) return 0;
+  return key_pose_distance(model_.corpus, hand_over_row(model_, model_.instances[static_cast<std::size_t>(from)]),
+                           model_.instances[static_cast<std::size_t>(to)].row);
+}
+
+std::vector<InstanceWalk::Follower> InstanceWalk::followers_of(int instance) const {
+  struct Candidate {
+    double distance, transition;
+    int instance;
   };
-  for (std::size_t k = 0; k < among.size(); ++k) {
-    if (transition(k) <= 0 || current_ < 0 || key_poses_ == KeyPoses::kRandom) continue;
-    distances[k] = key_pose_distance(model_.corpus, end, model_.instances[static_cast<std::size_t>(among[k])].row);
-    nearest = std::min(nearest, distances[k]);
+  std::vector<Candidate> candidates;
+  for (const int b : allowed_) {
+    const double m = transition(instance, b);
+    if (m > 0) candidates.push_back({distance(instance, b), m, b});
   }
-  if (!std::isfinite(nearest)) nearest = 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < among.size(); ++k) {
-    const double fresh = 1 + times_played_[static_cast<std::size_t>(among[k])];
-    sum += weights[k] = transition(k) * std::exp(-(distances[k] - nearest) / tau_) / (fresh * fresh);
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& x, const auto& y) { return x.distance < y.distance; });
+  if (key_poses_ == KeyPoses::kNearest && candidates.size() > kMostFollowers) candidates.resize(kMostFollowers);
+  std::vector<Follower> out;
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    const Candidate& c = candidates[k];
+    if (k >= 2 && c.distance > kFarthest * tau_) break;
+    out.push_back({c.instance, c.transition * std::exp(-(c.distance - candidates[0].distance) / tau_)});
   }
-  if (!(sum > 0)) return among[rng_.below(among.size())];
+  return out;
+}
+
+void InstanceWalk::look_ahead() {
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (std::size_t b = value_.size(); b-- > 0;) {
+      double best = 0;
+      for (const Follower& c : followers_[b]) best = std::max(best, value_[static_cast<std::size_t>(c.instance)]);
+      value_[b] = std::max(freshness_[b], kPatience * best);
+    }
+}
+
+int InstanceWalk::choose_endless() {
+  if (current_ < 0) return allowed_[rng_.below(allowed_.size())];
+  const auto& followers = followers_[static_cast<std::size_t>(current_)];
+  if (followers.empty()) return allowed_[rng_.below(allowed_.size())];
+  double freshest = 0;
+  for (const Follower& b : followers) freshest = std::max(freshest, value_[static_cast<std::size_t>(b.instance)]);
+  std::vector<double> weights;
+  for (const Follower& b : followers)
+    weights.push_back(b.weight * std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, kCuriosity));
+  return followers[rng_.weighted(weights)].instance;
+}
+
+int InstanceWalk::choose_of_texton(int texton) {
+  const auto& among = model_.textons[static_cast<std::size_t>(texton)].instances;
+  if (current_ < 0) return among[rng_.below(among.size())];
+  std::vector<double> distances, weights;
+  for (const int b : among) distances.push_back(distance(current_, b));
+  const double nearest = *std::min_element(distances.begin(), distances.end());
+  for (const double d : distances) weights.push_back(std::exp(-(d - nearest) / tau_));
   return among[rng_.weighted(weights)];
 }
 
 int InstanceWalk::next() {
-  if (path_done_ < path_.size()) {
-    const int texton = path_[path_done_++];
-    current_ = choose(model_.textons[static_cast<std::size_t>(texton)].instances, nullptr);
-  } else if (!endless_) {
+  if (path_done_ < path_.size())
+    current_ = choose_of_texton(path_[path_done_++]);
+  else if (endless_)
+    current_ = choose_endless();
+  else
     return -1;
-  } else if (current_ < 0) {
-    current_ = allowed_[rng_.below(allowed_.size())];
-  } else {
-    const int texton = model_.instances[static_cast<std::size_t>(current_)].texton;
-    std::vector<double> row(model_.textons.size(), 0);
-    for (std::size_t j = 0; j < row.size(); ++j)
-      if (texton_allowed_[j]) row[j] = model_.transitions.probability(texton, static_cast<int>(j));
-    current_ = choose(allowed_, &row);
-  }
-  times_played_[static_cast<std::size_t>(current_)] += 1;
+  double& fresh = freshness_[static_cast<std::size_t>(current_)];
+  fresh *= 0.5;
+  if (fresh < 1e-9)  // only ratios matter: keep them away from the smallest numbers
+    for (double& f : freshness_) f *= 1e6;
+  look_ahead();
   return current_;
 }
 

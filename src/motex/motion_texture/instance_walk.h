@@ -11,10 +11,11 @@ namespace motex {
 
 /// Random walk over the instances of a model [MT02 5.1]: from instance a (texton i) to b (texton j) with
 ///
-///   p(b) ∝ M_ij · exp(−distance(end of a, key poses of b) / τ) / (1 + times b was played)²
+///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶,   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over followers c of b
 ///
-/// τ = nearness × median over instances of the distance to the nearest key poses that do not follow in the source; the last
-/// factor keeps the dance from going in circles.
+/// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
+/// Followers farther than 1.25 τ are left out where nearer ones exist. V draws the dance towards what it has not shown
+/// lately, so that it neither goes in circles nor forgets a corner of the examples.
 class InstanceWalk {
  public:
   InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless);
@@ -23,8 +24,17 @@ class InstanceWalk {
   int next();
 
  private:
-  int choose(const std::vector<int>& among, const std::vector<double>* transition_row);
-  bool is_allowed(int instance) const;
+  struct Follower {
+    int instance = 0;
+    double weight = 0;  ///< M_ij · exp(−δ/τ)
+  };
+  std::vector<Follower> followers_of(int instance) const;
+  int choose_endless();
+  int choose_of_texton(int texton);
+  void look_ahead();
+  void lead_into_every_instance();
+  double distance(int from, int to) const;
+  double transition(int from, int to) const;  ///< M of their textons
 
   const MotionTexture& model_;
   KeyPoses key_poses_;
@@ -34,9 +44,10 @@ class InstanceWalk {
   double tau_ = 1;
   std::size_t path_done_ = 0;
   int current_ = -1;
-  std::vector<int> allowed_;           ///< instances of the largest connected part
+  std::vector<int> allowed_;  ///< instances of the largest connected part
   std::vector<bool> texton_allowed_;
-  std::vector<double> times_played_;
+  std::vector<std::vector<Follower>> followers_;  ///< by instance
+  std::vector<double> freshness_, value_;         ///< ½^(times played), V
 };
 
 }  // namespace motex

@@ -11,6 +11,22 @@ namespace {
 
 constexpr double kJumpWeight = 0.3;
 
+/// Nothing precedes the first instance of a run: the nearest end leads there.
+void lead_into_first_instances(const MotionTexture& model, TransitionMatrix& transitions) {
+  const auto& all = model.instances;
+  for (std::size_t b = 0; b < all.size(); ++b) {
+    if (b > 0 && all[b - 1].run_idx == all[b].run_idx) continue;
+    double best = std::numeric_limits<double>::infinity();
+    int nearest = -1;
+    for (std::size_t a = 0; a < all.size(); ++a) {
+      if (a == b) continue;
+      const double distance = key_pose_distance(model.corpus, hand_over_row(model, all[a]), all[b].row);
+      if (distance < best) best = distance, nearest = all[a].texton;
+    }
+    if (nearest >= 0) transitions.add_count(nearest, all[b].texton, kJumpWeight);
+  }
+}
+
 }  // namespace
 
 Index hand_over_row(const MotionTexture& model, const Instance& instance) {
@@ -19,7 +35,8 @@ Index hand_over_row(const MotionTexture& model, const Instance& instance) {
 }
 
 double key_pose_distance(const FrameMatrixF& corpus, Index row_a, Index row_b) {
-  return std::sqrt(0.5 * static_cast<double>((corpus.middleRows(row_a, 2) - corpus.middleRows(row_b, 2)).squaredNorm()));
+  return std::sqrt(0.5 *
+                   static_cast<double>((corpus.middleRows(row_a, 2) - corpus.middleRows(row_b, 2)).squaredNorm()));
 }
 
 TransitionMatrix transitions_with_jumps(const MotionTexture& model) {
@@ -38,6 +55,7 @@ TransitionMatrix transitions_with_jumps(const MotionTexture& model) {
     }
     if (nearest >= 0) out.add_count(all[a].texton, nearest, kJumpWeight);
   }
+  lead_into_first_instances(model, out);
   return out;
 }
 

@@ -69,7 +69,15 @@ void keep_used_textons(const ExpectationMaximisation& em, const TextonFitter& fi
       if (!fitter.is_shared()) model.subspaces.push_back(fit.subspace);
     }
     model.textons[static_cast<std::size_t>(texton)].instances.push_back(static_cast<int>(model.instances.size()));
-    model.instances.push_back({texton, segment.run_idx, segment.row, segment.length});
+    model.instances.push_back({texton, segment.run_idx, segment.row, segment.length, {}});
+  }
+}
+
+void find_places(std::span<const Clip> clips, MotionTexture& model) {
+  for (Instance& instance : model.instances) {
+    const Run& run = model.runs[static_cast<std::size_t>(instance.run_idx)];
+    instance.place = root_place(model.features, clips[static_cast<std::size_t>(run.clip_idx)],
+                                run.clip_start + instance.row - run.row);
   }
 }
 
@@ -108,6 +116,7 @@ MotionTexture learn_motion_texture(std::span<const Clip> clips, const LearnOptio
   model.global_statistics = fitter.shared_statistics();
   model.corpus = corpus.features.cast<float>();
   model.runs = corpus.runs;
+  find_places(clips, model);
   for (const Clip& clip : clips) {
     model.clip_names.push_back(clip.name);
     model.clip_lengths.push_back(clip.num_frames());

@@ -13,8 +13,8 @@
 namespace motex {
 
 struct LearnReport {
-  Index num_frames = 0;        ///< learned from
-  Index num_glitch_frames = 0; ///< left out
+  Index num_frames = 0;         ///< learned from
+  Index num_glitch_frames = 0;  ///< left out
   int num_clips = 0;
   int num_textons = 0;
   int num_segments = 0;
@@ -24,13 +24,13 @@ struct LearnReport {
   /// + log prior of the dynamics + log prior of the transition matrix. Never falls.
   std::vector<double> objective;
   bool converged = false;
-  int num_dead_ends = 0;            ///< textons without an observed successor, before jumps were added
-  int num_components = 0;           ///< strongly connected components, jumps added
-  double largest_component = 0;     ///< share of textons in the largest one
+  int num_dead_ends = 0;         ///< textons without an observed successor, before jumps were added
+  int num_components = 0;        ///< strongly connected components, jumps added
+  double largest_component = 0;  ///< share of textons in the largest one
 };
 
-/// Learns textons and their distribution [MT02 4]. Clips: one skeleton, one frame rate (see unify_clips), each long enough
-/// for one segment. Throws InvalidInput when nothing is long enough, Cancelled.
+/// Learns textons and their distribution [MT02 4]. Clips: one skeleton, one frame rate (see unify_clips), each long
+/// enough for one segment. Throws InvalidInput when nothing is long enough, Cancelled.
 MotionTexture learn_motion_texture(std::span<const Clip> clips, const LearnOptions& options, LearnReport& report,
                                    const JobContext& job = {});
 
@@ -44,8 +44,8 @@ struct RecognisedSegment {
 /// The most likely segmentation of a clip that may be new to the model [MT02 appendix A].
 std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Clip& clip);
 
-/// Nats per frame of the weighted feature vector. Counted are the frames that two good frames precede; glitches are left
-/// out as in learning.
+/// Nats per frame of the weighted feature vector. Counted are the frames that two good frames precede; glitches are
+/// left out as in learning.
 struct ScoreReport {
   double log_likelihood_per_frame = 0;             ///< of clips and their best texton path
   double global_lds_log_likelihood_per_frame = 0;  ///< of the clips under one global LDS of the same state size

@@ -28,21 +28,24 @@ struct LearnOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"basis", "", "one subspace for all textons (shared), or one for each as in the paper (own)"}, self.basis,
-          Choices{{"shared", "own"}});
-    visit(Field{"init", "", "where learning starts: segments grown until they fit badly (greedy, the paper), or one-second "
-                            "pieces merged while the Bayes factor gains (merge); auto: merge for shared, greedy for own"},
+    visit(Field{"basis", "", "one subspace for all textons (shared), or one for each as in the paper (own)"},
+          self.basis, Choices{{"shared", "own"}});
+    visit(Field{"init", "",
+                "where learning starts: segments grown until they fit badly (greedy, the paper), or one-second "
+                "pieces merged while the Bayes factor gains (merge); auto: merge for shared, greedy for own"},
           self.init, Choices{{"auto", "greedy", "merge"}});
-    visit(Field{"threshold", "cm or nats", "greedy: largest mean error of a texton's open-loop prediction, cm (auto: 0.45 of "
-                                           "the distance of two random poses); merge: log Bayes factor that a merge must gain"},
+    visit(Field{"threshold", "cm or nats",
+                "greedy: largest mean error of a texton's open-loop prediction, cm (auto: 0.45 of "
+                "the distance of two random poses); merge: log Bayes factor that a merge must gain"},
           self.threshold, Range{1e-6, 1e6, true});
     visit(Field{"min_duration", "s", "shortest segment, T_min"}, self.min_duration, Range{0.1, 10});
     visit(Field{"max_duration", "s", "longest segment"}, self.max_duration, Range{0.2, 60});
-    visit(Field{"state_size", "", "dimensions of the state (auto: 99.5 % of the variance, at most 30; own: 99 % of each "
-                                  "texton's, 8 to 15)"},
+    visit(Field{"state_size", "",
+                "dimensions of the state (auto: 99.5 % of the variance, at most 30; own: 99 % of each "
+                "texton's, 8 to 15)"},
           self.state_size, Range{2, 60, true});
-    visit(Field{"prior", "frames", "weight of the whole corpus in every texton's dynamics (auto: 300; own: 30)"}, self.prior,
-          Range{1, 1e6, true});
+    visit(Field{"prior", "frames", "weight of the whole corpus in every texton's dynamics (auto: 300; own: 30)"},
+          self.prior, Range{1, 1e6, true});
     visit(Field{"transition_prior", "counts", "Dirichlet mass added to each row of the transition matrix"},
           self.transition_prior, Range{1e-3, 1e3});
     visit(Field{"max_iterations", "", "most EM iterations"}, self.max_iterations, Range{1, 1000});

@@ -33,7 +33,9 @@ struct Merge {
 class Merger {
  public:
   Merger(const TextonFitter& fitter, std::vector<Group> groups, double threshold)
-      : evidence_(fitter.shared_statistics(), fitter.prior_frames()), groups_(std::move(groups)), threshold_(threshold) {
+      : evidence_(fitter.shared_statistics(), fitter.prior_frames()),
+        groups_(std::move(groups)),
+        threshold_(threshold) {
     const LdsStatistics& corpus = fitter.shared_statistics();
     global_rows_ = whitening(fit_lds(corpus, make_prior(corpus, 1)));
   }

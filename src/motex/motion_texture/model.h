@@ -34,6 +34,7 @@ struct Instance {
   int run_idx = 0;
   Index row = 0;  ///< first row in MotionTexture::corpus
   Index length = 0;
+  RootPlace place;  ///< of its first frame in the source, so that a dance begins where the dancer stood
 };
 
 /// A texton [MT02 3.2]: second-order linear dynamics in a subspace, and the key poses of its instances.

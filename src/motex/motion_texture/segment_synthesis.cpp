@@ -12,13 +12,16 @@ namespace motex {
 namespace {
 
 constexpr double kBlendSecs = 1.0 / 3;
+constexpr double kReplayNoise = 0.2;
 
 }  // namespace
 
 SegmentSynthesis::SegmentSynthesis(const MotionTexture& model, const SynthesizeOptions& options)
     : model_(model),
       source_(options.noise_source),
-      noise_(options.noise),
+      noise_(options.noise > 0                              ? options.noise
+             : options.noise_source == NoiseSource::kReplay ? kReplayNoise
+                                                            : 1),
       rng_(Rng(options.seed).fork(2)),
       blend_frames_(std::max<Index>(2, std::lround(kBlendSecs / model.frame_time_secs()))),
       bridges_(model.textons.size()) {}
@@ -69,9 +72,12 @@ const FrameMatrix& SegmentSynthesis::play(int instance, int next) {
   }
   draw_noise(l - 2, d, noise_);
   bridge(a.texton).solve(states_, noise_rows_);
-  if (replay) out_ = source.cast<double>();
-  else out_ = space.mean.transpose().replicate(l, 1);
-  gemm(false, true, l, out_.cols(), d, 1.0, states_.data(), d, FrameMatrix(space.basis).data(), d, 1.0, out_.data(), out_.cols());
+  if (replay)
+    out_ = source.cast<double>();
+  else
+    out_ = space.mean.transpose().replicate(l, 1);
+  gemm(false, true, l, out_.cols(), d, 1.0, states_.data(), d, FrameMatrix(space.basis).data(), d, 1.0, out_.data(),
+       out_.cols());
   const FrameMatrix left_last = last - out_.bottomRows(2), left_first = first - out_.topRows(2);
   blend(l - 2, left_last.row(0).transpose(), (left_last.row(1) - left_last.row(0)).transpose(), true);
   if (!replay) blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);

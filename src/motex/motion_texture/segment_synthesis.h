@@ -12,11 +12,11 @@ namespace motex {
 
 /// Features of one texton between key poses [MT02 5.4, Figure 5].
 ///
-/// replay: y(t) = y_source(t) + C e(t) + o(t). The deviation e follows the texton's dynamics from 0 to the difference of the
-/// end poses, driven by fresh noise alone: the source's own residuals are in y_source. o carries what of that difference
-/// lies outside the subspace, over the last third of a second. It is the constrained synthesis with the source's residuals
-/// as noise, written around the source.
-/// white: y(t) = μ + C x(t) + o(t) with x the constrained synthesis of white noise, as in the paper; o at both ends.
+/// replay: y(t) = y_source(t) + C e(t) + o(t). The deviation e follows the texton's dynamics from 0 to the difference
+/// of the end poses, driven by fresh noise alone: the source's own residuals are in y_source. o carries what of that
+/// difference lies outside the subspace, over the last third of a second. It is the constrained synthesis with the
+/// source's residuals as noise, written around the source. white: y(t) = μ + C x(t) + o(t) with x the constrained
+/// synthesis of white noise, as in the paper; o at both ends.
 class SegmentSynthesis {
  public:
   SegmentSynthesis(const MotionTexture& model, const SynthesizeOptions& options);

@@ -14,9 +14,13 @@ namespace motex {
 
 struct Synthesizer::State {
   State(const MotionTexture& m, const SynthesizeOptions& options, std::vector<int> path, bool endless)
-      : model(m), walk(m, options, std::move(path), endless), segments(m, options), pose(make_held_clip(m.features, 1)) {
+      : model(m),
+        walk(m, options, std::move(path), endless),
+        segments(m, options),
+        pose(make_held_clip(m.features, 1)) {
     if (options.foot_fix && !m.feet.legs.empty()) fixer.emplace(m.feet, m.features.skeleton, m.frame_time_secs());
     coming = walk.next();
+    if (coming >= 0) place = m.instances[static_cast<std::size_t>(coming)].place;
     advance();
   }
 
@@ -56,7 +60,8 @@ struct Synthesizer::State {
   std::vector<PlayedTexton> begun;
 };
 
-Synthesizer::Synthesizer(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless) {
+Synthesizer::Synthesizer(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path,
+                         bool endless) {
   check_options(options);
   state_ = std::make_unique<State>(model, options, std::move(path), endless);
 }
@@ -110,7 +115,8 @@ void drop_beyond(std::vector<PlayedTexton>& played, Index num_frames) {
 
 Clip synthesize_motion(const MotionTexture& model, Index num_frames, const std::vector<int>& path,
                        const SynthesizeOptions& options, SynthesizeReport& report, const JobContext& job) {
-  if (num_frames < 0 || (num_frames == 0 && path.empty())) throw InvalidInput("give a number of frames above 0, or a path");
+  if (num_frames < 0 || (num_frames == 0 && path.empty()))
+    throw InvalidInput("give a number of frames above 0, or a path");
   constexpr Index kMostFrames = 20'000'000;
   if (num_frames > kMostFrames) throw InvalidInput("more than 20 million frames at once: use the stream");
   Synthesizer synthesizer(model, options, path, num_frames > 0);
@@ -140,8 +146,8 @@ Clip synthesize_motion(const MotionTexture& model, Index num_frames, const std::
   return out;
 }
 
-Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_frames, const SynthesizeOptions& options,
-                              SynthesizeReport& report) {
+Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_frames,
+                              const SynthesizeOptions& options, SynthesizeReport& report) {
   check_options(options);
   if (texton < 0 || texton >= static_cast<int>(model.textons.size()))
     throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
@@ -154,9 +160,11 @@ Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_
   const Index row = model.instances[static_cast<std::size_t>(instance)].row;
   FrameMatrix states(num_frames, space.basis.cols());
   states.topRows(2) = (model.corpus.middleRows(row, 2).cast<double>().rowwise() - space.mean.transpose()) * space.basis;
-  simulate(t.dynamics, states, &rng, options.noise);
+  simulate(t.dynamics, states, &rng, options.noise > 0 ? options.noise : 1);
   const FrameMatrix features = (states * space.basis.transpose()).rowwise() + space.mean.transpose();
-  if (!features.allFinite()) throw NumericalFailure("the texton is unstable: its motion leaves all bounds in " + std::to_string(num_frames) + " frames");
+  if (!features.allFinite())
+    throw NumericalFailure("the texton is unstable: its motion leaves all bounds in " + std::to_string(num_frames) +
+                           " frames");
   report.played = {{texton, instance, 0, num_frames}};
   report.longest_copy = 0;
   Clip clip = decode(model.features, features);

@@ -17,24 +17,27 @@ enum class KeyPoses { kNearest, kRandom };
 enum class NoiseSource { kReplay, kWhite };
 
 struct SynthesizeOptions {
-  double noise = 0.3;
+  double noise = 0;
   NoiseSource noise_source = NoiseSource::kReplay;
   KeyPoses key_poses = KeyPoses::kNearest;
   double nearness = 1;
-  double prior = 30;
   bool foot_fix = true;
   std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"noise", "", "strength of fresh noise against the texton's own"}, self.noise, Range{0, 3});
-    visit(Field{"noise_source", "", "replay: the residuals of the example, plus fresh noise; white: noise alone, as in the paper"},
+    visit(Field{"noise", "",
+                "strength of fresh noise against the texton's own (auto: 0.2 on top of replayed residuals, 1 for "
+                "white noise and unconstrained textons)"},
+          self.noise, Range{1e-9, 3, true});
+    visit(Field{"noise_source", "",
+                "replay: the residuals of the example, plus fresh noise; white: noise alone, as in the paper"},
           self.noise_source, Choices{{"replay", "white"}});
-    visit(Field{"key_poses", "", "next example by nearness of its first poses to the present ones, or at random (the paper)"},
+    visit(Field{"key_poses", "",
+                "next example by nearness of its first poses to the present ones, or at random (the paper)"},
           self.key_poses, Choices{{"nearest", "random"}});
     visit(Field{"nearness", "", "how far the next first poses may lie from the present ones, relative to the usual"},
           self.nearness, Range{0.01, 100});
-    visit(Field{"prior", "frames", "weight of the whole corpus in every texton's dynamics"}, self.prior, Range{1, 1e6});
     visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
     visit(Field{"seed", "", "random seed"}, self.seed, Range{0, 1.8e19});
   }
@@ -52,12 +55,13 @@ class Synthesizer {
  public:
   /// path: textons to play first, in order; then (endless == true) the dance goes on at random in the largest connected
   /// part. Empty path: random from the start. Throws InvalidInput for a texton that does not exist.
-  Synthesizer(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path = {}, bool endless = true);
+  Synthesizer(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path = {},
+              bool endless = true);
   ~Synthesizer();
   Synthesizer(Synthesizer&&) noexcept;
 
-  /// Writes the next frame into row `frame` of a clip made with make_output_clip. False when a path that is not endless is
-  /// over. Amortised cost: one constrained texton per segment.
+  /// Writes the next frame into row `frame` of a clip made with make_output_clip. False when a path that is not endless
+  /// is over. Amortised cost: one constrained texton per segment.
   bool next(Clip& out, Index frame);
   /// Textons begun since the last call; with planted feet held, frames come out up to 0.5 s after their texton began.
   std::vector<PlayedTexton> take_played();
@@ -80,7 +84,7 @@ Clip synthesize_motion(const MotionTexture& model, Index num_frames, const std::
                        const SynthesizeOptions& options, SynthesizeReport& report, const JobContext& job = {});
 
 /// One texton by its dynamics and white noise alone, without end constraint [MT02 5.3, Figure 4].
-Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_frames, const SynthesizeOptions& options,
-                              SynthesizeReport& report);
+Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_frames,
+                              const SynthesizeOptions& options, SynthesizeReport& report);
 
 }  // namespace motex

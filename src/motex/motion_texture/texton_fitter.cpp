@@ -15,7 +15,11 @@ constexpr double kSharedPrior = 300, kOwnPrior = 30;
 }  // namespace
 
 TextonFitter::TextonFitter(const Corpus& corpus, const LearnOptions& options)
-    : corpus_(corpus), options_(options), prior_frames_(options.prior > 0 ? options.prior : is_shared() ? kSharedPrior : kOwnPrior) {
+    : corpus_(corpus),
+      options_(options),
+      prior_frames_(options.prior > 0 ? options.prior
+                    : is_shared()     ? kSharedPrior
+                                      : kOwnPrior) {
   const Index own_size = options.state_size > 0 ? options.state_size : 15;
   shared_ = principal_subspace(corpus.features, is_shared() ? options.state_size : own_size, 0.995, 2, 30);
   states_ = project(shared_, corpus.features);
@@ -45,8 +49,9 @@ LdsPrior TextonFitter::own_prior(const Subspace& subspace, double prior_frames) 
   for (Index a = 0; a < 3; ++a) {
     prior.mean.segment(a * d, d) = subspace.basis.transpose() * (lagged_.mean.segment(a * dims, dims) - subspace.mean);
     for (Index b = 0; b < 3; ++b)
-      prior.covariance.block(a * d, b * d, d, d).noalias() =
-          subspace.basis.transpose() * lagged_.scatter.block(a * dims, b * dims, dims, dims) * subspace.basis / lagged_.count;
+      prior.covariance.block(a * d, b * d, d, d).noalias() = subspace.basis.transpose() *
+                                                             lagged_.scatter.block(a * dims, b * dims, dims, dims) *
+                                                             subspace.basis / lagged_.count;
   }
   prior.covariance.diagonal().array() += 1e-9 * prior.covariance.trace() / static_cast<double>(3 * d) + 1e-12;
   return prior;
@@ -67,7 +72,8 @@ TextonFit TextonFitter::fit_within(const Subspace& subspace, std::span<const Lab
     if (is_shared()) {
       fit.statistics.add(states_, first, counted);
     } else {
-      const FrameMatrix rows = corpus_.features.middleRows(first - 2, counted + 2).rowwise() - subspace.mean.transpose();
+      const FrameMatrix rows =
+          corpus_.features.middleRows(first - 2, counted + 2).rowwise() - subspace.mean.transpose();
       const FrameMatrix x = rows * subspace.basis;
       fit.statistics.add(x, 2, counted);
       fit.outside_squares += rows.bottomRows(counted).squaredNorm() - x.bottomRows(counted).squaredNorm();

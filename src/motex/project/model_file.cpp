@@ -24,8 +24,10 @@ struct OptionWriter {
   template <typename T, typename Limits>
   void operator()(const Field& field, const T& value, const Limits&) const {
     out << field.name << ' ';
-    if constexpr (std::is_enum_v<T>) out << static_cast<int>(value);
-    else out << value;
+    if constexpr (std::is_enum_v<T>)
+      out << static_cast<int>(value);
+    else
+      out << value;
     out << '\n';
   }
 };
@@ -125,7 +127,8 @@ Skeleton read_skeleton(const ArchiveReader& in) {
   const Ints site_parents = in.ints("end_site_parents");
   const FrameMatrix sites = in.matrix("end_site_offsets", static_cast<Index>(site_parents.size()), 3);
   for (std::size_t e = 0; e < site_parents.size(); ++e)
-    skeleton.end_sites.push_back({checked(in, site_parents[e], 0, n, "a parent"), sites.row(static_cast<Index>(e)).transpose()});
+    skeleton.end_sites.push_back(
+        {checked(in, site_parents[e], 0, n, "a parent"), sites.row(static_cast<Index>(e)).transpose()});
   skeleton.metres_per_unit = in.doubles("metres_per_unit", 1)[0];
   if (!(skeleton.metres_per_unit >= 0)) in.fail("metres_per_unit is negative");
   check_skeleton(skeleton);
@@ -141,7 +144,8 @@ void write_features(ArchiveWriter& out, const FeatureSpace& space) {
   out.add("feature_joints", joints);
   out.add("feature_references", space.references);
   out.add("feature_held", space.held);
-  out.add("feature_weights", std::span<const double>(space.weights.data(), static_cast<std::size_t>(space.weights.size())));
+  out.add("feature_weights",
+          std::span<const double>(space.weights.data(), static_cast<std::size_t>(space.weights.size())));
 }
 
 FeatureSpace read_features(const ArchiveReader& in) {
@@ -174,8 +178,12 @@ void write_feet(ArchiveWriter& out, const FootModel& feet) {
         leg.ankle_floor, leg.toe_floor, leg.ankle_height, leg.toe_height;
   }
   out.add("legs", legs);
-  const double scalars[] = {static_cast<double>(feet.pelvis_idx), feet.cm_per_unit, feet.begin_speed, feet.end_speed,
-                            feet.height_margin, feet.min_contact_secs};
+  const double scalars[] = {static_cast<double>(feet.pelvis_idx),
+                            feet.cm_per_unit,
+                            feet.begin_speed,
+                            feet.end_speed,
+                            feet.height_margin,
+                            feet.min_contact_secs};
   out.add("foot_thresholds", scalars);
 }
 
@@ -191,7 +199,8 @@ FootModel read_feet(const ArchiveReader& in, int num_joints) {
     leg.hip_idx = joint(legs(i, 0)), leg.knee_idx = joint(legs(i, 1)), leg.ankle_idx = joint(legs(i, 2));
     leg.toe_offset = legs.row(i).segment<3>(3).transpose();
     leg.knee_axis = legs.row(i).segment<3>(6).transpose();
-    leg.ankle_floor = legs(i, 9), leg.toe_floor = legs(i, 10), leg.ankle_height = legs(i, 11), leg.toe_height = legs(i, 12);
+    leg.ankle_floor = legs(i, 9), leg.toe_floor = legs(i, 10), leg.ankle_height = legs(i, 11),
+    leg.toe_height = legs(i, 12);
     feet.legs.push_back(leg);
   }
   const auto scalars = in.doubles("foot_thresholds", 6);
@@ -247,6 +256,12 @@ void write_examples(ArchiveWriter& out, const MotionTexture& model) {
   Ints runs, instances;
   for (const Run& run : model.runs) runs.insert(runs.end(), {run.clip_idx, run.clip_start, run.length});
   for (const Instance& x : model.instances) instances.insert(instances.end(), {x.texton, x.run_idx, x.row, x.length});
+  FrameMatrix places(static_cast<Index>(model.instances.size()), 3);
+  for (Index k = 0; k < places.rows(); ++k) {
+    const RootPlace& place = model.instances[static_cast<std::size_t>(k)].place;
+    places.row(k) << place.x, place.z, place.heading;
+  }
+  out.add("places", places);
   out.add("runs", runs);
   out.add("instances", instances);
 }
@@ -260,7 +275,8 @@ void read_runs(const ArchiveReader& in, MotionTexture& model) {
     Run run;
     run.clip_idx = checked(in, runs[r], 0, clips, "the clip of a run");
     const Index frames = model.clip_lengths[static_cast<std::size_t>(run.clip_idx)];
-    if (runs[r + 1] < 0 || runs[r + 2] < 4 || runs[r + 1] > frames - runs[r + 2]) in.fail("a run lies outside its clip");
+    if (runs[r + 1] < 0 || runs[r + 2] < 4 || runs[r + 1] > frames - runs[r + 2])
+      in.fail("a run lies outside its clip");
     run.clip_start = runs[r + 1], run.length = runs[r + 2], run.row = row;
     row += run.length;
     if (row > model.corpus.rows()) in.fail("the runs are longer than the corpus");
@@ -273,12 +289,15 @@ void read_instances(const ArchiveReader& in, MotionTexture& model) {
   const Ints values = in.ints("instances");
   if (values.size() % 4 != 0 || values.empty()) in.fail("instances has no usable size");
   const auto textons = static_cast<std::int64_t>(model.textons.size());
+  const FrameMatrix places = in.matrix("places", static_cast<Index>(values.size() / 4), 3);
   for (std::size_t k = 0; k < values.size(); k += 4) {
     Instance x;
     x.texton = checked(in, values[k], 0, textons, "the texton of an instance");
     x.run_idx = checked(in, values[k + 1], 0, static_cast<std::int64_t>(model.runs.size()), "the run of an instance");
     const Run& run = model.runs[static_cast<std::size_t>(x.run_idx)];
     x.row = values[k + 2], x.length = values[k + 3];
+    const auto place = places.row(static_cast<Index>(k / 4));
+    x.place = {place[0], place[1], place[2]};
     if (x.row < run.row || x.length < 4 || x.length > run.length || x.row - run.row > run.length - x.length)
       in.fail("an instance lies outside its run");
     model.textons[static_cast<std::size_t>(x.texton)].instances.push_back(static_cast<int>(model.instances.size()));
@@ -312,7 +331,8 @@ TransitionMatrix read_transitions(const ArchiveReader& in, int num_textons) {
   TransitionMatrix out(num_textons);
   const FrameMatrix rows = in.matrix("transitions", -1, 3);
   for (Index k = 0; k < rows.rows(); ++k) {
-    if (!(rows.row(k).minCoeff() >= 0 && rows(k, 0) < num_textons && rows(k, 1) < num_textons)) in.fail("a transition is out of range");
+    if (!(rows.row(k).minCoeff() >= 0 && rows(k, 0) < num_textons && rows(k, 1) < num_textons))
+      in.fail("a transition is out of range");
     out.add_count(static_cast<int>(rows(k, 0)), static_cast<int>(rows(k, 1)), rows(k, 2));
   }
   return out;
@@ -332,7 +352,8 @@ std::string write_model_bytes(const MotionTexture& model) {
   out.add("num_textons_and_subspaces", sizes);
   const double deviation[] = {model.outside_deviation};
   out.add("outside_deviation", deviation);
-  for (std::size_t i = 0; i < model.subspaces.size(); ++i) write_subspace(out, numbered("subspace", i), model.subspaces[i]);
+  for (std::size_t i = 0; i < model.subspaces.size(); ++i)
+    write_subspace(out, numbered("subspace", i), model.subspaces[i]);
   for (std::size_t i = 0; i < model.textons.size(); ++i) write_texton(out, i, model.textons[i]);
   write_transitions(out, model.transitions);
   write_subspace(out, "global_subspace", model.global_subspace);
@@ -341,7 +362,9 @@ std::string write_model_bytes(const MotionTexture& model) {
   return out.bytes();
 }
 
-void save_model(const std::filesystem::path& path, const MotionTexture& model) { write_file(path, write_model_bytes(model)); }
+void save_model(const std::filesystem::path& path, const MotionTexture& model) {
+  write_file(path, write_model_bytes(model));
+}
 
 MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
   const ArchiveReader in(std::move(bytes), name, kKind, kVersion);
@@ -369,6 +392,8 @@ MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
   return model;
 }
 
-MotionTexture load_model(const std::filesystem::path& path) { return read_model_bytes(read_file(path), path.filename().string()); }
+MotionTexture load_model(const std::filesystem::path& path) {
+  return read_model_bytes(read_file(path), path.filename().string());
+}
 
 }  // namespace motex
