@@ -157,8 +157,8 @@ int InstanceWalk::next() {
     return -1;
   double& fresh = freshness_[static_cast<std::size_t>(current_)];
   fresh *= 0.5;
-  if (fresh < 1e-9)  // only ratios matter: keep them away from the smallest numbers
-    for (double& f : freshness_) f *= 1e6;
+  if (fresh < 1e-9)  // long ago counts less: what was played more than 30 times oftener than others starts anew
+    for (double& f : freshness_) f = std::min(1.0, f * 1e6);
   look_ahead();
   return current_;
 }
