@@ -30,20 +30,17 @@ Corpus make_corpus(const FeatureSpace& space, std::span<const Clip> clips, Index
   for (std::size_t c = 0; c < clips.size(); ++c) {
     job.check_cancelled();
     const Clip& clip = clips[c];
-    const FrameMatrix y = encode(space, clip, job);
     const std::vector<bool> good = good_frames(clip, keep_glitches);
     const auto glitches = std::count(good.begin(), good.end(), false);
     corpus.num_glitch_frames += glitches;
     clips_with_glitches += glitches > 0 ? 1 : 0;
-    for (Index t = 0; t < y.rows();) {
+    for (Index t = 0; t < clip.num_frames();) {
       Index end = t;
-      while (end < y.rows() && good[static_cast<std::size_t>(end)]) ++end;
+      while (end < clip.num_frames() && good[static_cast<std::size_t>(end)]) ++end;
       longest = std::max(longest, end - t);
       if (end - t >= min_frames + 2) {
         corpus.runs.push_back({static_cast<int>(c), t, row, end - t});
-        parts.push_back(y.middleRows(t, end - t));
-        // The first steps came from a frame that was left out.
-        for (const Index channel : {0, 1, 3}) parts.back()(0, channel) = parts.back()(1, channel);
+        parts.push_back(encode(space, slice(clip, t, end - t), job));
         row += end - t;
       }
       t = end + 1;

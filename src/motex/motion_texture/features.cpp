@@ -15,8 +15,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr Index kRootChannels = 6;
 constexpr double kVelocitySecs = 4.0 / 60;  // a step counts as far as it leads in this time
-constexpr double kStillUnits = 1e-3;        // cm: translations and
-constexpr double kStillAngle = 1e-6;        // radians: rotations that vary less are held
+constexpr double kMostTurn = 1.5 * kPi;
+constexpr double kStillUnits = 1e-3;  // cm: translations and
+constexpr double kStillAngle = 1e-6;  // radians: rotations that vary less are held
 
 double wrap_angle(double angle) { return angle - 2 * kPi * std::round(angle / (2 * kPi)); }
 
@@ -230,7 +231,11 @@ FrameMatrix encode(const FeatureSpace& space, const Clip& clip, const JobContext
       const int j = space.joints[i];
       const Index col = kRootChannels + 3 * static_cast<Index>(i);
       const Quat relative = reference(space, j).conjugate() * clip.rotation(t, j);
-      const Vector3 v = t == 0 ? log_map(relative) : log_map_near(relative, y.row(t - 1).segment<3>(col).transpose());
+      Vector3 v = log_map(relative);
+      if (t > 0) {
+        const Vector3 continued = log_map_near(relative, y.row(t - 1).segment<3>(col).transpose());
+        if (continued.norm() < kMostTurn) v = continued;  // a joint that seems to wind up had a bad frame
+      }
       y.row(t).segment<3>(col) = v.transpose();
     }
   }

@@ -16,7 +16,7 @@ namespace motex {
 ///   2      height     of the travelling joint, absolute
 ///   3      Δψ         turn of the heading since the previous frame
 ///   4, 5   t_x, t_z   tilt: q = R_y(ψ) · exp(t_x, 0, t_z), ψ = 2 atan2(q_y, q_w)
-///   6 …    3 a joint  log(q_ref⁻¹ q), continued along the clip
+///   6 …    3 a joint  log(q_ref⁻¹ q), continued along the clip up to 270°
 ///
 /// Encoding then decoding a clip gives it back (translations that were held apart). D = 6 + 3 · moving joints.
 struct FeatureSpace {
