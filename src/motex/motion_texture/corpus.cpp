@@ -23,6 +23,7 @@ std::vector<bool> good_frames(const Clip& clip, bool keep_glitches) {
 
 Corpus make_corpus(const FeatureSpace& space, std::span<const Clip> clips, Index min_frames, bool keep_glitches,
                    const JobContext& job) {
+  if (clips.empty()) throw InvalidInput("no clip was given");
   Corpus corpus;
   std::vector<FrameMatrix> parts;
   Index row = 0, longest = 0;
