@@ -8,6 +8,8 @@
 namespace motex {
 namespace {
 
+constexpr double kLeastRcond = 1e-8;
+
 /// a · b or a · bᵀ (column-major square matrices; BLAS sees their transposes).
 Matrix product(const Matrix& a, const Matrix& b, bool transpose_b = false) {
   const Index n = a.rows();
@@ -18,7 +20,7 @@ Matrix product(const Matrix& a, const Matrix& b, bool transpose_b = false) {
 
 }  // namespace
 
-Bridge::Bridge(const Lds& lds) : d_(lds.state_size()), noise_chol_(lds.noise_chol) {
+Bridge::Bridge(const Lds& lds) : lds_(lds), d_(lds.state_size()), noise_chol_(lds.noise_chol) {
   const auto b = noise_chol_.triangularView<Eigen::Lower>();
   a1_ = b.solve(lds.transition.leftCols(d_) * noise_chol_);
   a2_ = b.solve(lds.transition.rightCols(d_) * noise_chol_);
@@ -36,9 +38,12 @@ Bridge::Steps Bridge::join(const Steps& a, const Steps& b) const {
   return {product(a.power, b.power), a.gramian + product(product(a.power, b.gramian), a.power, true)};
 }
 
-const Eigen::LLT<Matrix>& Bridge::factor(Index num_steps) {
+const Eigen::LLT<Matrix>* Bridge::factor(Index num_steps) {
+  const auto trusted = [](const Eigen::LLT<Matrix>& llt) {
+    return llt.info() == Eigen::Success && llt.rcond() > kLeastRcond;
+  };
   const auto found = factors_.find(num_steps);
-  if (found != factors_.end()) return found->second;
+  if (found != factors_.end()) return trusted(found->second) ? &found->second : nullptr;
   Steps sum;
   bool any = false;
   for (std::size_t bit = 0; (num_steps >> bit) != 0; ++bit) {
@@ -49,9 +54,7 @@ const Eigen::LLT<Matrix>& Bridge::factor(Index num_steps) {
   }
   if (factors_.size() >= kMostFactors) factors_.clear();
   const auto& llt = factors_.emplace(num_steps, sum.gramian).first->second;
-  if (llt.info() != Eigen::Success)
-    throw NumericalFailure("a texton cannot be synthesized: its end poses are not reachable by its noise");
-  return llt;
+  return trusted(llt) ? &llt : nullptr;
 }
 
 /// Columns 2 … of z_ by the dynamics.
@@ -70,7 +73,12 @@ void Bridge::solve(Eigen::Ref<FrameMatrix> states, const Eigen::Ref<const FrameM
   if (l < 4 || states.cols() != d_ || noise.rows() != n || noise.cols() != d_)
     throw InvalidInput("Bridge::solve: a path needs at least 4 states, and noise for all but its first two");
   if (l == 4) return;
-  const auto& llt = factor(n);
+  const auto* llt = banded_ ? nullptr : factor(n);
+  if (llt == nullptr) {
+    if (!banded_) banded_.emplace(lds_);
+    banded_->solve(states, noise);
+    return;
+  }
   const auto b = noise_chol_.triangularView<Eigen::Lower>();
   z_.resize(d_, l);
   multipliers_.resize(2 * d_, l);
@@ -80,7 +88,7 @@ void Bridge::solve(Eigen::Ref<FrameMatrix> states, const Eigen::Ref<const FrameM
   auto end = multipliers_.col(l - 1);
   end.head(d_) = b.solve(states.row(l - 1).transpose()) - z_.col(l - 1);
   end.tail(d_) = b.solve(states.row(l - 2).transpose()) - z_.col(l - 2);
-  llt.solveInPlace(end);
+  llt->solveInPlace(end);
   for (Index t = l - 1; t > 2; --t) {
     const auto now = multipliers_.col(t);
     auto before = multipliers_.col(t - 1);

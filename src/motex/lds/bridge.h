@@ -4,8 +4,10 @@
 
 #include <Eigen/Cholesky>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "motex/lds/banded_bridge.h"
 #include "motex/lds/lds.h"
 
 namespace motex {
@@ -20,6 +22,7 @@ namespace motex {
 ///   P_n λ_l = s_l − s_l(free),   P_n = Σ_{k<n} Φᵏ Q Φᵏᵀ,   λ_{t−1} = Φᵀ λ_t,   ε'_t = ε_t + upper half of λ_t
 ///
 /// P_n is made by doubling and its Cholesky factor kept for each length; then a path costs 6.5 l d² multiplications.
+/// Where the system grows so much that P_n has no digits left, BandedBridge solves the same problem.
 class Bridge {
  public:
   explicit Bridge(const Lds& lds);
@@ -34,10 +37,12 @@ class Bridge {
     Matrix gramian;  ///< P_n
   };
   Steps join(const Steps& a, const Steps& b) const;
-  const Eigen::LLT<Matrix>& factor(Index num_steps);
+  const Eigen::LLT<Matrix>* factor(Index num_steps);  ///< nullptr: not to be trusted
   void run(Index num_steps, const Eigen::Ref<const FrameMatrix>& noise, bool add_multipliers);
 
   static constexpr std::size_t kMostFactors = 64;
+  Lds lds_;
+  std::optional<BandedBridge> banded_;
   Index d_;
   Matrix noise_chol_, a1_, a2_;  ///< B, B⁻¹A₁B, B⁻¹A₂B
   Vector offset_;                ///< B⁻¹D

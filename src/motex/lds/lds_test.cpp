@@ -185,6 +185,34 @@ TEST(Bridge, ReproducesAPathFromItsOwnEndsAndNoise) {
   EXPECT_LT((states - truth).norm(), 1e-8 * truth.norm());
 }
 
+TEST(Bridge, ServesSystemsThatGrow) {
+  Rng rng(10);
+  Lds lds = random_lds(rng, 3);
+  lds.transition.leftCols(3) *= 1.15;  // every mode 15 % further out: the Gramian of 200 steps is singular in doubles
+  lds.transition.rightCols(3) *= 1.15 * 1.15;
+  ASSERT_GT(spectral_radius(lds), 1.03);
+  Bridge bridge(lds);
+  for (const Index l : {5, 30, 200, 400}) {
+    FrameMatrix states = FrameMatrix::Random(l, 3);
+    const FrameMatrix noise = FrameMatrix::Random(l - 2, 3);
+    const FrameMatrix expected = dense_bridge(lds, states, noise);
+    bridge.solve(states, noise);
+    EXPECT_LT((states - expected).norm(), 1e-6 * (1 + expected.norm())) << l;
+  }
+}
+
+TEST(BandedBridge, EqualsBridge) {
+  Rng rng(11);
+  const Lds lds = random_lds(rng, 4);
+  for (const Index l : {4, 5, 6, 7, 60}) {
+    FrameMatrix a = FrameMatrix::Random(l, 4), b = a;
+    const FrameMatrix noise = FrameMatrix::Random(l - 2, 4);
+    Bridge(lds).solve(a, noise);
+    BandedBridge(lds).solve(b, noise);
+    EXPECT_LT((a - b).norm(), 1e-8 * (1 + a.norm())) << l;
+  }
+}
+
 TEST(Bridge, MeetsEndsFarFromTheModel) {
   Rng rng(9);
   Bridge bridge(random_lds(rng, 2));
