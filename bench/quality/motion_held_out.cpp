@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+// How well clips that were not learned from are predicted: nats per frame more than one global linear dynamic system of
+// the same state size, beside the control whose textons differ in noise alone.
+#include "../motion_data.h"
+#include "motex/motion_texture/learn.h"
+
+namespace {
+
+using motex::bench::Dance;
+
+constexpr int kSplits = 3;
+constexpr std::size_t kStep = 7;
+
+struct Split {
+  std::vector<motex::Clip> training, held_out;
+};
+
+/// Every 7th clip by name, from the split's number on; of fewer than 14 clips, one.
+Split split_by_clip(const std::vector<motex::Clip>& clips, std::size_t split) {
+  const std::size_t step = clips.size() >= 2 * kStep ? kStep : clips.size();
+  Split parts;
+  for (std::size_t i = 0; i < clips.size(); ++i)
+    (i % step == split % step ? parts.held_out : parts.training).push_back(clips[i]);
+  return parts;
+}
+
+struct Gain {
+  double nats = 0;  ///< per frame over the global system
+  int num_textons = 0, state_size = 0;
+};
+
+Gain held_out_gain(const Split& split, const motex::LearnOptions& options) {
+  motex::LearnReport report;
+  const motex::MotionTexture model = motex::learn_motion_texture(split.training, options, report);
+  const motex::ScoreReport score = motex::score_clips(model, split.held_out);
+  return {score.log_likelihood_per_frame - score.global_lds_log_likelihood_per_frame, report.num_textons,
+          report.state_size};
+}
+
+struct Row {
+  const char* name;
+  motex::LearnOptions options;
+  const char* known;
+};
+
+void print_splits(const std::vector<Split>& splits, const Row& row) {
+  std::string gains, controls, textons;
+  double sum = 0, control_sum = 0;
+  for (const Split& split : splits) {
+    const Gain gain = held_out_gain(split, row.options);
+    sum += gain.nats;
+    char text[64];
+    std::snprintf(text, sizeof text, "%+7.2f", gain.nats);
+    gains += text;
+    textons += (textons.empty() ? "" : ", ") + std::to_string(gain.num_textons);
+    if (row.options.basis == motex::Basis::kOwn) continue;  // the control is for the shared basis
+    motex::LearnOptions control = row.options;
+    control.common_dynamics = true;
+    const Gain noise_only = held_out_gain(split, control);
+    control_sum += noise_only.nats;
+    std::snprintf(text, sizeof text, "%+7.2f", noise_only.nats);
+    controls += text;
+  }
+  const auto n = static_cast<double>(splits.size());
+  std::printf("%-16s %s   mean %+6.2f   noise only ", row.name, gains.c_str(), sum / n);
+  if (controls.empty())
+    std::printf("(none for own)");
+  else
+    std::printf("%s   mean %+6.2f", controls.c_str(), control_sum / n);
+  std::printf("   textons %s   known %s\n", textons.c_str(), row.known);
+}
+
+void print_curve(const Split& split) {
+  std::printf("curve on split 0: full, noise only\n");
+  const auto print_point = [&](const char* name, int value, motex::LearnOptions options) {
+    const Gain gain = held_out_gain(split, options);
+    options.common_dynamics = true;
+    const Gain control = held_out_gain(split, options);
+    std::printf("  %-10s %5d   %+6.2f   %+6.2f   %3d textons, d = %d\n", name, value, gain.nats, control.nats,
+                gain.num_textons, gain.state_size);
+  };
+  for (const int state_size : {10, 15, 20, 25, 30, 40}) {
+    motex::LearnOptions options;
+    options.state_size = state_size;
+    print_point("state size", state_size, options);
+  }
+  for (const int prior : {30, 100, 300, 1000}) {
+    motex::LearnOptions options;
+    options.prior = prior;
+    print_point("prior", prior, options);
+  }
+}
+
+void measure(const std::filesystem::path& folder) {
+  const Dance dance = motex::bench::all_dances(folder).back();
+  std::vector<Split> splits;
+  for (std::size_t i = 0; i < kSplits; ++i) splits.push_back(split_by_clip(dance.clips, i));
+  std::printf("%s, %zu clips, %zu held out in each of %d splits by clip; wanted: shared >= +7\n", dance.name.c_str(),
+              dance.clips.size(), splits[0].held_out.size(), kSplits);
+  std::printf("nats per frame over one global LDS of the same state size\n");
+  motex::LearnOptions shared, greedy, own;
+  greedy.init = motex::Init::kGreedy;
+  own.basis = motex::Basis::kOwn;
+  print_splits(splits, {"shared, merge", shared, "+7.8, of which +6.7 noise"});
+  print_splits(splits, {"shared, greedy", greedy, "+5.8"});
+  print_splits(splits, {"own, greedy", own, "no better"});
+  print_curve(splits[0]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return motex::bench::run(argc, argv, measure); }
