@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "motex/core/error.h"
 #include "motex/core/gemm.h"
 #include "motex/motion_texture/jumps.h"
 
@@ -78,6 +80,8 @@ const FrameMatrix& SegmentSynthesis::play(int instance, int next) {
     out_ = space.mean.transpose().replicate(l, 1);
   gemm(false, true, l, out_.cols(), d, 1.0, states_.data(), d, FrameMatrix(space.basis).data(), d, 1.0, out_.data(),
        out_.cols());
+  if (!out_.allFinite())
+    throw NumericalFailure("texton " + std::to_string(a.texton) + " is unstable: its motion leaves all bounds");
   const FrameMatrix left_last = last - out_.bottomRows(2), left_first = first - out_.topRows(2);
   blend(l - 2, left_last.row(0).transpose(), (left_last.row(1) - left_last.row(0)).transpose(), true);
   if (!replay) blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);

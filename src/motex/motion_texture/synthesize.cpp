@@ -106,6 +106,11 @@ Index longest_copy(const MotionTexture& model, const std::vector<PlayedTexton>& 
   return longest;
 }
 
+void check_not_too_many(Index num_frames) {
+  constexpr Index kMostFrames = 20'000'000;
+  if (num_frames > kMostFrames) throw InvalidInput("more than 20 million frames at once: use the stream");
+}
+
 void drop_beyond(std::vector<PlayedTexton>& played, Index num_frames) {
   while (!played.empty() && played.back().start >= num_frames) played.pop_back();
   if (!played.empty()) played.back().length = std::min(played.back().length, num_frames - played.back().start);
@@ -117,8 +122,7 @@ Clip synthesize_motion(const MotionTexture& model, Index num_frames, const std::
                        const SynthesizeOptions& options, SynthesizeReport& report, const JobContext& job) {
   if (num_frames < 0 || (num_frames == 0 && path.empty()))
     throw InvalidInput("give a number of frames above 0, or a path");
-  constexpr Index kMostFrames = 20'000'000;
-  if (num_frames > kMostFrames) throw InvalidInput("more than 20 million frames at once: use the stream");
+  check_not_too_many(num_frames);
   Synthesizer synthesizer(model, options, path, num_frames > 0);
   Index capacity = num_frames > 0 ? num_frames : 1024;
   Clip out = make_output_clip(model, capacity);
@@ -153,6 +157,7 @@ Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_
     throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
                        std::to_string(model.textons.size() - 1));
   if (num_frames < 2) throw InvalidInput("an unconstrained texton needs at least 2 frames");
+  check_not_too_many(num_frames);
   Rng rng(options.seed);
   const Texton& t = model.textons[static_cast<std::size_t>(texton)];
   const Subspace& space = model.subspace(texton);
