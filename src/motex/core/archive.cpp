@@ -4,6 +4,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -16,6 +17,7 @@ static_assert(std::endian::native == std::endian::little, "archives are written 
 
 constexpr char kMagic[] = "\x89MOTEX\r\n";
 constexpr std::size_t kMagicSize = sizeof kMagic - 1;
+constexpr std::uint64_t kMostOfEmpty = 1U << 20;
 constexpr char kText = 't', kDouble = 'd', kFloat = 'f', kInt = 'i';
 
 std::size_t element_size(char type) { return type == kText ? 1 : type == kFloat ? 4 : 8; }
@@ -147,10 +149,12 @@ ArchiveReader::ArchiveReader(std::string bytes, std::string name, std::string_vi
     const auto num_dims = cursor.take<std::uint8_t>();
     if (num_dims < 1 || num_dims > 2) cursor.fail("an array must have one or two dimensions");
     std::uint64_t sizes[2] = {1, 1};
+    for (int d = 0; d < num_dims; ++d) sizes[d] = cursor.take<std::uint64_t>();
     const std::uint64_t most = (cursor.end - cursor.at) / element_size(entry.type);
-    for (int d = 0; d < num_dims; ++d)
-      if ((sizes[d] = cursor.take<std::uint64_t>()) > most) cursor.fail("an array is larger than the file");
-    if (sizes[1] != 0 && sizes[0] > most / sizes[1]) cursor.fail("an array is larger than the file");
+    // An array without elements keeps its other size, such as 0 × 13; that one is bounded by itself.
+    const bool is_empty = sizes[0] == 0 || sizes[1] == 0;
+    if (is_empty ? std::max(sizes[0], sizes[1]) > kMostOfEmpty : sizes[0] > most / sizes[1])
+      cursor.fail("an array is larger than the file");
     cursor.need(sizes[0] * sizes[1] * element_size(entry.type));
     entry.rows = static_cast<Index>(sizes[0]);
     entry.cols = static_cast<Index>(sizes[1]);

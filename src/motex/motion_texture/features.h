@@ -10,6 +10,9 @@
 
 namespace motex {
 
+/// Frame times that can be learned from; what a model needs in memory goes by them.
+constexpr double kLeastFrameTimeSecs = 1e-4, kMostFrameTimeSecs = 1e4;
+
 /// Channels of a frame, each multiplied by its weight, all then in centimetres of body movement:
 ///
 ///   0, 1   v_x, v_z   horizontal step from the previous frame, in its heading frame

@@ -24,6 +24,9 @@ struct Durations {
 };
 
 Durations durations(const LearnOptions& options, double frame_time_secs) {
+  if (!(frame_time_secs >= kLeastFrameTimeSecs && frame_time_secs <= kMostFrameTimeSecs))
+    throw InvalidInput("the clips have " + std::to_string(1 / frame_time_secs) +
+                       " frames a second; give the true rate with --fps");
   if (options.max_duration < 2 * options.min_duration)
     throw InvalidInput("max_duration must be at least twice min_duration");
   const auto frames = [&](double secs) { return static_cast<Index>(std::lround(secs / frame_time_secs)); };

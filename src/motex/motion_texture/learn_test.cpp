@@ -48,6 +48,9 @@ TEST(Learn, WrongInputIsNamed) {
   clips[1].frame_time_secs = 1.0 / 30;
   EXPECT_TRUE(says(message([&] { learn_motion_texture(clips, options, report); }), "frame rates"));
   clips = walking_clips(1, 300);
+  clips[0].frame_time_secs = 1e-5;
+  EXPECT_TRUE(says(message([&] { learn_motion_texture(clips, options, report); }), "--fps"));
+  clips = walking_clips(1, 300);
   clips[0].rotations(100, 5) = NAN;
   EXPECT_THROW(learn_motion_texture(clips, options, report), InvalidInput);
   clips = walking_clips(1, 300);

@@ -17,6 +17,7 @@ namespace {
 constexpr char kKind[] = "motion_texture";
 constexpr std::uint32_t kVersion = 1;
 constexpr Index kMostStates = 100;
+constexpr double kMostContactSecs = 10;  // the foot pass keeps so many frames in memory
 
 /// Options as lines "name value", so that files show what made them and new options can join.
 struct OptionWriter {
@@ -154,7 +155,8 @@ FeatureSpace read_features(const ArchiveReader& in) {
   const auto scalars = in.doubles("frame_time_and_cm_per_unit", 2);
   space.frame_time_secs = scalars[0];
   space.cm_per_unit = scalars[1];
-  if (!(scalars[0] > 1e-6 && scalars[0] < 1e6 && scalars[1] > 0)) in.fail("the frame time or unit is not positive");
+  if (!(scalars[0] >= kLeastFrameTimeSecs && scalars[0] <= kMostFrameTimeSecs && scalars[1] > 0))
+    in.fail("the frame time or unit is out of range");
   const Ints joints = in.ints("feature_joints");
   if (joints.empty()) in.fail("feature_joints is empty");
   const int n = space.skeleton.num_joints();
@@ -207,6 +209,9 @@ FootModel read_feet(const ArchiveReader& in, int num_joints) {
   feet.pelvis_idx = joint(scalars[0]);
   feet.cm_per_unit = scalars[1], feet.begin_speed = scalars[2], feet.end_speed = scalars[3];
   feet.height_margin = scalars[4], feet.min_contact_secs = scalars[5];
+  if (!(feet.cm_per_unit > 0 && feet.begin_speed >= 0 && feet.end_speed >= 0 && feet.min_contact_secs >= 0 &&
+        feet.min_contact_secs <= kMostContactSecs))
+    in.fail("a foot threshold is out of range");
   return feet;
 }
 
