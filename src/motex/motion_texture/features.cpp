@@ -145,7 +145,7 @@ void find_weights(FeatureSpace& space) {
   }
   for (const EndSite& site : space.skeleton.end_sites) {
     const auto p = static_cast<std::size_t>(site.parent_idx);
-    points.push_back(positions[p] + rotations[p] * site.offset);
+    points.emplace_back(positions[p] + rotations[p] * site.offset);
     owner.push_back(site.parent_idx);
   }
   const auto lever_of = [&](int j) { return lever(space, j, points, owner, positions); };
