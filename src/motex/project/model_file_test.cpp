@@ -254,12 +254,30 @@ TEST(ModelFile, ForeignAndNewerFiles) {
   EXPECT_THROW(read_model_bytes(sealed(bytes), "newer"), UnsupportedFile);
 }
 
-/// A file of every format version is kept; what it was read as when it was new is what it is read as for ever.
-TEST(ModelFile, DISABLED_ReadsVersionOne) {
-  const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v1.motex";
-  const MotionTexture model = load_model(path);
+/// A file of every format version is kept (tests/old_files); what it held when it was new is what it holds for ever.
+TEST(ModelFile, ReadsVersionOne) {
+  const MotionTexture model =
+      load_model(std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v1.motex");
   EXPECT_EQ(model.clip_names, (std::vector<std::string>{"walk_0.bvh", "walk_1.bvh"}));
+  EXPECT_EQ(model.clip_lengths, (std::vector<Index>{75, 75}));
   EXPECT_EQ(model.features.skeleton.num_joints(), 17);
+  EXPECT_EQ(model.features.skeleton.joints[16].name, "RightToeBase");
+  EXPECT_DOUBLE_EQ(model.frame_time_secs(), 1.0 / 15);
+  EXPECT_DOUBLE_EQ(model.features.weights[6], 32.320675218781105);
+  EXPECT_EQ(model.corpus.rows(), 150);
+  EXPECT_FLOAT_EQ(model.corpus(10, 2), 82.5327759F);
+  EXPECT_EQ(model.options.init, Init::kGreedy);
+  EXPECT_EQ(model.options.seed, 7U);
+  ASSERT_EQ(model.textons.size(), 6U);
+  EXPECT_DOUBLE_EQ(model.textons[0].dynamics.transition(0, 0), 1.7961084423117679);
+  ASSERT_EQ(model.instances.size(), 7U);
+  EXPECT_EQ(model.instances[1].row, 15);
+  EXPECT_EQ(model.instances[1].length, 17);
+  EXPECT_DOUBLE_EQ(model.instances[1].place.z, 80);
+  EXPECT_DOUBLE_EQ(model.transitions.count(4, 0), 0.6);
+  EXPECT_DOUBLE_EQ(model.outside_deviation, 2.2844926133964893);
+  EXPECT_EQ(model.global_statistics.count(), 146);
+  EXPECT_EQ(model.feet.legs.size(), 2U);
   check_clip(dance(model, 300));
 }
 
