@@ -27,15 +27,22 @@ Split split_by_clip(const std::vector<motex::Clip>& clips, std::size_t split) {
 
 struct Gain {
   double nats = 0;  ///< per frame over the global system
-  int num_textons = 0, state_size = 0;
+  std::vector<double> by_clip;
+  int num_textons = 0;
 };
+
+double nats_gained(const motex::ScoreReport& score) {
+  return score.log_likelihood_per_frame - score.global_lds_log_likelihood_per_frame;
+}
 
 Gain held_out_gain(const Split& split, const motex::LearnOptions& options) {
   motex::LearnReport report;
   const motex::MotionTexture model = motex::learn_motion_texture(split.training, options, report);
   const motex::ScoreReport score = motex::score_clips(model, split.held_out);
-  return {score.log_likelihood_per_frame - score.global_lds_log_likelihood_per_frame, report.num_textons,
-          report.state_size};
+  Gain gain{nats_gained(score), {}, report.num_textons};
+  for (const motex::Clip& clip : split.held_out)
+    gain.by_clip.push_back(nats_gained(motex::score_clips(model, {&clip, 1})));
+  return gain;
 }
 
 struct Row {
@@ -46,10 +53,12 @@ struct Row {
 
 void print_splits(const std::vector<Split>& splits, const Row& row) {
   std::string gains, controls, textons;
+  std::vector<double> by_clip;
   double sum = 0, control_sum = 0;
   for (const Split& split : splits) {
     const Gain gain = held_out_gain(split, row.options);
     sum += gain.nats;
+    by_clip.insert(by_clip.end(), gain.by_clip.begin(), gain.by_clip.end());
     char text[64];
     std::snprintf(text, sizeof text, "%+7.2f", gain.nats);
     gains += text;
@@ -63,7 +72,9 @@ void print_splits(const std::vector<Split>& splits, const Row& row) {
     controls += text;
   }
   const auto n = static_cast<double>(splits.size());
-  std::printf("%-16s %s   mean %+6.2f   noise only ", row.name, gains.c_str(), sum / n);
+  const auto [lowest, highest] = std::minmax_element(by_clip.begin(), by_clip.end());
+  std::printf("%-16s %s   mean %+6.2f   clips %+.2f ... %+.2f ... %+.2f   noise only ", row.name, gains.c_str(),
+              sum / n, *lowest, motex::bench::median(by_clip), *highest);
   if (controls.empty())
     std::printf("(none for own)");
   else
@@ -77,8 +88,8 @@ void print_curve(const Split& split) {
     const Gain gain = held_out_gain(split, options);
     options.common_dynamics = true;
     const Gain control = held_out_gain(split, options);
-    std::printf("  %-10s %5d   %+6.2f   %+6.2f   %3d textons, d = %d\n", name, value, gain.nats, control.nats,
-                gain.num_textons, gain.state_size);
+    std::printf("  %-10s %5d   %+6.2f (clips: median %+6.2f)   %+6.2f   %3d textons\n", name, value, gain.nats,
+                motex::bench::median(gain.by_clip), control.nats, gain.num_textons);
   };
   for (const int state_size : {10, 15, 20, 25, 30, 40}) {
     motex::LearnOptions options;
@@ -98,7 +109,7 @@ void measure(const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < kSplits; ++i) splits.push_back(split_by_clip(dance.clips, i));
   std::printf("%s, %zu clips, %zu held out in each of %d splits by clip; wanted: shared >= +7\n", dance.name.c_str(),
               dance.clips.size(), splits[0].held_out.size(), kSplits);
-  std::printf("nats per frame over one global LDS of the same state size\n");
+  std::printf("nats per frame over one global LDS of the same state size; clips: lowest, median, highest\n");
   motex::LearnOptions shared, greedy, own;
   greedy.init = motex::Init::kGreedy;
   own.basis = motex::Basis::kOwn;
