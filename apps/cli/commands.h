@@ -10,6 +10,8 @@ namespace motex::cli {
 Command motion_learn();
 Command motion_info();
 Command motion_synthesize();
+Command motion_path();
+Command motion_choreograph();
 Command motion_segment();
 Command motion_score();
 Command motion_compare();

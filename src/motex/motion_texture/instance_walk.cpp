@@ -19,22 +19,6 @@ constexpr double kFarthest = 1.25;  // τ
 constexpr std::size_t kMostFollowers = 24;
 constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
 
-/// Median over instances of the distance to the nearest key poses that do not follow in the source.
-double usual_jump_distance(const MotionTexture& model) {
-  std::vector<double> nearest;
-  for (std::size_t a = 0; a < model.instances.size(); ++a) {
-    const Index end = hand_over_row(model, model.instances[a]);
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < model.instances.size(); ++b)
-      if (b != a && b != a + 1) best = std::min(best, key_pose_distance(model.corpus, end, model.instances[b].row));
-    if (std::isfinite(best)) nearest.push_back(best);
-  }
-  if (nearest.empty()) return 1;
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return std::max(*middle, 1e-6);
-}
-
 }  // namespace
 
 InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path,

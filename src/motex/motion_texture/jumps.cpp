@@ -39,6 +39,21 @@ double key_pose_distance(const FrameMatrixF& corpus, Index row_a, Index row_b) {
                    static_cast<double>((corpus.middleRows(row_a, 2) - corpus.middleRows(row_b, 2)).squaredNorm()));
 }
 
+double usual_jump_distance(const MotionTexture& model) {
+  std::vector<double> nearest;
+  for (std::size_t a = 0; a < model.instances.size(); ++a) {
+    const Index end = hand_over_row(model, model.instances[a]);
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t b = 0; b < model.instances.size(); ++b)
+      if (b != a && b != a + 1) best = std::min(best, key_pose_distance(model.corpus, end, model.instances[b].row));
+    if (std::isfinite(best)) nearest.push_back(best);
+  }
+  if (nearest.empty()) return 1;
+  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
+  std::nth_element(nearest.begin(), middle, nearest.end());
+  return std::max(*middle, 1e-6);
+}
+
 TransitionMatrix transitions_with_jumps(const MotionTexture& model) {
   TransitionMatrix out(static_cast<int>(model.textons.size()), 0);
   const auto& all = model.instances;

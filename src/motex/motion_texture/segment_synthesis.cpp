@@ -15,6 +15,40 @@ namespace {
 
 constexpr double kBlendSecs = 1.0 / 3;
 constexpr double kReplayNoise = 0.2;
+constexpr Index kStepChannels[] = {0, 1, 3};  // v_x, v_z, Δψ: movement since the frame before
+
+/// Speeds of `steps` steps that together cover `way` steps of the source: 1 at both ends, changed smoothly between.
+Vector speeds(Index steps, Index way) {
+  Vector change = Vector::Zero(steps);
+  const double ramp = std::max(1.0, static_cast<double>(steps) / 5);
+  for (Index k = 1; k + 1 < steps; ++k) {
+    const double u = std::min(1.0, static_cast<double>(std::min(k, steps - 1 - k)) / ramp);
+    change[k] = u * u * (3 - 2 * u);
+  }
+  return Vector::Ones(steps) + change * (static_cast<double>(way - steps) / change.sum());
+}
+
+/// The source in `length` frames (cubic interpolation). Its two first and two last rows stay.
+FrameMatrix paced(FrameMatrix source, Index length) {
+  if (length == source.rows()) return source;
+  const Vector speed = speeds(length - 1, source.rows() - 1);
+  FrameMatrix out(length, source.cols());
+  out.topRows(2) = source.topRows(2);
+  double time = 1;
+  for (Index t = 2; t < length - 2; ++t) {
+    time += speed[t - 1];
+    const Index k = std::clamp<Index>(static_cast<Index>(time), 1, source.rows() - 3);
+    const double u = time - static_cast<double>(k);
+    const auto p = source.middleRows(k - 1, 4);
+    out.row(t) = p.row(1) + 0.5 * u *
+                                (p.row(2) - p.row(0) +
+                                 u * (2 * p.row(0) - 5 * p.row(1) + 4 * p.row(2) - p.row(3) +
+                                      u * (3 * (p.row(1) - p.row(2)) + p.row(3) - p.row(0))));
+    for (const Index c : kStepChannels) out(t, c) *= speed[t - 1];
+  }
+  out.bottomRows(2) = source.bottomRows(2);
+  return out;
+}
 
 }  // namespace
 
@@ -57,36 +91,43 @@ void SegmentSynthesis::blend(Index first_row, const Vector& value, const Vector&
 
 const FrameMatrix& SegmentSynthesis::play(int instance, int next) {
   const Instance& a = model_.instances[static_cast<std::size_t>(instance)];
-  const Subspace& space = model_.subspace(a.texton);
-  const Index l = hand_over_row(model_, a) + 2 - a.row, d = space.basis.cols();
-  const Index end_row = next < 0 ? a.row + l - 2 : model_.instances[static_cast<std::size_t>(next)].row;
-  const auto source = model_.corpus.middleRows(a.row, l);
-  const FrameMatrix first = source.topRows(2).cast<double>();
-  const FrameMatrix last = model_.corpus.middleRows(end_row, 2).cast<double>();
+  const Index end = hand_over_row(model_, a), l = end + 2 - a.row;
+  return play({a.texton, a.row, l, a.row, next < 0 ? end : model_.instances[static_cast<std::size_t>(next)].row, l});
+}
+
+const FrameMatrix& SegmentSynthesis::play(const Piece& piece) {
+  const Subspace& space = model_.subspace(piece.texton);
+  const Index l = piece.length, d = space.basis.cols();
+  const FrameMatrix source =
+      paced(model_.corpus.middleRows(piece.source_row, piece.source_length).cast<double>(), piece.length);
+  if (l < 4) return out_ = source;
+  const FrameMatrix first = model_.corpus.middleRows(piece.first_row, 2).cast<double>();
+  const FrameMatrix last = model_.corpus.middleRows(piece.last_row, 2).cast<double>();
   const bool replay = source_ == NoiseSource::kReplay;
   states_.resize(l, d);
   if (replay) {
-    states_.topRows(2).setZero();
-    states_.bottomRows(2) = (last - source.bottomRows(2).cast<double>()) * space.basis;
+    states_.topRows(2) = (first - source.topRows(2)) * space.basis;
+    states_.bottomRows(2) = (last - source.bottomRows(2)) * space.basis;
   } else {
     states_.topRows(2) = (first.rowwise() - space.mean.transpose()) * space.basis;
     states_.bottomRows(2) = (last.rowwise() - space.mean.transpose()) * space.basis;
   }
   draw_noise(l - 2, d, noise_);
-  bridge(a.texton).solve(states_, noise_rows_);
+  bridge(piece.texton).solve(states_, noise_rows_);
   if (replay)
-    out_ = source.cast<double>();
+    out_ = source;
   else
     out_ = space.mean.transpose().replicate(l, 1);
   gemm(false, true, l, out_.cols(), d, 1.0, states_.data(), d, FrameMatrix(space.basis).data(), d, 1.0, out_.data(),
        out_.cols());
-  if (!out_.allFinite())
-    throw NumericalFailure("texton " + std::to_string(a.texton) + " is unstable: its motion leaves all bounds");
   const FrameMatrix left_last = last - out_.bottomRows(2), left_first = first - out_.topRows(2);
   blend(l - 2, left_last.row(0).transpose(), (left_last.row(1) - left_last.row(0)).transpose(), true);
-  if (!replay) blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);
+  if (!replay || piece.first_row != piece.source_row)
+    blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);
   out_.topRows(2) = first;
   out_.bottomRows(2) = last;
+  if (!out_.allFinite())
+    throw NumericalFailure("texton " + std::to_string(piece.texton) + " is unstable: its motion leaves all bounds");
   return out_;
 }
 

@@ -10,6 +10,15 @@
 
 namespace motex {
 
+/// Consecutive rows of the corpus to be played between any two pairs of poses in any number of frames.
+struct Piece {
+  int texton = 0;
+  Index source_row = 0, source_length = 0;
+  Index first_row = 0;  ///< corpus rows first_row, first_row + 1: the first two frames
+  Index last_row = 0;   ///< corpus rows last_row, last_row + 1: the last two frames
+  Index length = 0;     ///< frames
+};
+
 /// Features of one texton between key poses [MT02 5.4, Figure 5].
 ///
 /// replay: y(t) = y_source(t) + C e(t) + o(t). The deviation e follows the texton's dynamics from 0 to the difference
@@ -24,6 +33,10 @@ class SegmentSynthesis {
   /// Frames of `instance` up to and with the key poses of `next` (−1: up to its own last frames): length × D.
   /// The two first and the two last rows are key poses exactly.
   const FrameMatrix& play(int instance, int next);
+
+  /// The same between other poses, in another number of frames. The source is played as fast as it was at both ends,
+  /// and faster or slower between them. Fewer than 4 frames are the source itself.
+  const FrameMatrix& play(const Piece& piece);
 
  private:
   Bridge& bridge(int texton);

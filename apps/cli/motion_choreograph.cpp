@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include "clip_output.h"
+#include "closest.h"
+#include "commands.h"
+#include "model_sources.h"
+#include "motex/motion_texture/choreograph.h"
+#include "motex/project/model_file.h"
+#include "options_value.h"
+#include "output_file.h"
+#include "text_table.h"
+
+namespace motex::cli {
+namespace {
+
+/// "salsa_01@120".
+ClipFrame parse_clip_frame(const std::string& flag, const std::string& text) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || at == 0) throw InvalidInput(flag + ": '" + text + "' is not CLIP@FRAME");
+  ClipFrame pose;
+  pose.clip = text.substr(0, at);
+  std::int64_t frame = 0;
+  parse_value(flag, text.substr(at + 1), frame);
+  pose.frame = frame;
+  return pose;
+}
+
+/// "salsa_01@120:300".
+ChoreographyRequest::Via parse_via(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || text.find('@') > colon)
+    throw InvalidInput("--via: '" + text + "' is not CLIP@FRAME:N");
+  std::int64_t frame = 0;
+  parse_value("--via", text.substr(colon + 1), frame);
+  return {parse_clip_frame("--via", text.substr(0, colon)), frame};
+}
+
+/// "x,z,heading", the heading in degrees.
+RootPlace parse_place(const std::string& text) {
+  const std::vector<std::string> words = split_at_commas(text);
+  if (words.size() != 3) throw InvalidInput("--place: '" + text + "' is not X,Z,HEADING");
+  RootPlace place;
+  double degrees = 0;
+  parse_value("--place", words[0], place.x);
+  parse_value("--place", words[1], place.z);
+  parse_value("--place", words[2], degrees);
+  if (!std::isfinite(place.x + place.z + degrees)) throw InvalidInput("--place: '" + text + "' is not finite");
+  place.heading = degrees * std::numbers::pi / 180;
+  return place;
+}
+
+struct Choreograph {
+  std::string model_path, start, end, place;
+  std::vector<std::string> outputs, via;
+  std::int64_t frames = 0;
+  ChoreographyOptions options;
+
+  void declare(Arguments& arguments) {
+    arguments.positional("MODEL", "made by motex motion learn", model_path);
+    arguments.value("--start", "CLIP@FRAME", "the first two frames are this one and the next", start).required = true;
+    arguments.value("--end", "CLIP@FRAME", "the last two frames are the one before and this", end).required = true;
+    arguments.value("--frames", "N", "length in frames", frames).required = true;
+    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs)
+        .required = true;
+    arguments.value("--via", "CLIP@FRAME:N", "output frames N and N+1 are this one and the next; may be given again",
+                    via);
+    arguments.value("--place", "X,Z,HEADING",
+                    "where the first frame stands and looks, heading in degrees (default: as in its clip)", place);
+    arguments.section("How");
+    arguments.options(options);
+  }
+
+  void run(Session& session) {
+    const ChoreographyRequest request = parse_request();
+    check_outputs(outputs, clip_output_extensions(), session);
+    const MotionTexture model = load_model(model_path);
+    if (session.flags.dry_run) return report_dry_run(model, request, session);
+    ChoreographyReport report;
+    Clip clip = choreograph(model, request, options, report, session.job(0, 0.9));
+    ClipPicture picture;
+    picture.title = start + " → " + end;
+    picture.spans = spans_of(model, report, clip.num_frames());
+    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
+                std::to_string(report.played.size()) + " textons, seed " + std::to_string(options.seed));
+    session.result(report_value(model, clip, report, session), table(model, report));
+  }
+
+ private:
+  ChoreographyRequest parse_request() const {
+    ChoreographyRequest request;
+    request.start = parse_clip_frame("--start", start);
+    request.end = parse_clip_frame("--end", end);
+    request.num_frames = frames;
+    for (const std::string& text : via) request.via.push_back(parse_via(text));
+    if (!place.empty()) request.place = parse_place(place);
+    return request;
+  }
+
+  void report_dry_run(const MotionTexture& model, const ChoreographyRequest& request, Session& session) const {
+    corpus_row(model, request.start);
+    corpus_row(model, request.end);
+    Value object;
+    object["dry_run"] = true;
+    object["frames"] = frames;
+    object["output"] = outputs;
+    std::string text;
+    for (const std::string& path : outputs) text += "would write " + path + "\n";
+    session.result(object, text);
+  }
+
+  static InstanceSource source_of_played(const MotionTexture& model, const ChoreographedTexton& played) {
+    InstanceSource source = source_of(model, played.instance);
+    source.start += played.source_row - model.instances[static_cast<std::size_t>(played.instance)].row;
+    source.length = played.source_length;
+    return source;
+  }
+
+  static std::vector<TextonSpan> spans_of(const MotionTexture& model, const ChoreographyReport& report, Index frames) {
+    std::vector<TextonSpan> spans;
+    for (std::size_t k = 0; k < report.played.size(); ++k) {
+      const ChoreographedTexton& played = report.played[k];
+      const Index end = k + 1 < report.played.size() ? report.played[k + 1].start : frames;
+      const InstanceSource source = source_of_played(model, played);
+      spans.push_back({played.texton, played.start, end - played.start,
+                       source.clip + ", frames " + std::to_string(source.start) + "–" +
+                           std::to_string(source.start + source.length - 1)});
+    }
+    return spans;
+  }
+
+  Value report_value(const MotionTexture& model, const Clip& clip, const ChoreographyReport& report,
+                     const Session& session) const {
+    Value list = Value::List();
+    std::vector<int> textons;
+    for (const ChoreographedTexton& played : report.played) {
+      const InstanceSource source = source_of_played(model, played);
+      textons.push_back(played.texton);
+      Value entry;
+      entry["texton"] = played.texton;
+      entry["instance"] = played.instance;
+      entry["output_start"] = std::int64_t{played.start};
+      entry["length"] = std::int64_t{played.length};
+      entry["clip"] = source.clip;
+      entry["start"] = std::int64_t{source.start};
+      entry["source_length"] = std::int64_t{source.length};
+      entry["first_distance_cm"] = played.first_distance;
+      entry["last_distance_cm"] = played.last_distance;
+      list.append(std::move(entry));
+    }
+    Value object;
+    object["frames"] = std::int64_t{clip.num_frames()};
+    object["frame_rate"] = clip.frame_rate();
+    object["seed"] = options.seed;
+    object["output"] = outputs;
+    object["path"] = textons;
+    object["played"] = std::move(list);
+    object["log_probability"] = report.log_prob;
+    object["cost"] = report.cost;
+    object["start_distance_cm"] = report.start_distance;
+    object["end_distance_cm"] = report.end_distance;
+    object["options"] = options_value(options);
+    object["secs"] = session.secs();
+    return object;
+  }
+
+  static std::string table(const MotionTexture& model, const ChoreographyReport& report) {
+    std::vector<std::vector<std::string>> rows{
+        {"frames", "texton", "example", "its frames", "bent at the start, cm", "at the end, cm"}};
+    for (const ChoreographedTexton& played : report.played) {
+      const InstanceSource source = source_of_played(model, played);
+      rows.push_back({std::to_string(played.start) + "–" + std::to_string(played.start + played.length - 1),
+                      std::to_string(played.texton), source.clip,
+                      std::to_string(source.start) + "–" + std::to_string(source.start + source.length - 1),
+                      fixed(played.first_distance, 1), fixed(played.last_distance, 1)});
+    }
+    return text_table(rows);
+  }
+};
+
+}  // namespace
+
+Command motion_choreograph() {
+  return make_command<Choreograph>(
+      {"motion choreograph", "a dance from pose to pose in so many frames",
+       "Poses are frames of the clips that the model was learned from; CLIP is named as motex motion info lists it, "
+       "frames "
+       "count from 0. Which examples are played, and how long each, is chosen together, so that the length is exact.",
+       "motex motion choreograph dance.motex --start salsa_01@100 --end salsa_05@200 --frames 320 -o new.bvh\n"
+       "motex motion choreograph dance.motex --start a@10 --via b@50:200 --end a@400 --frames 500 -o new.glb"});
+}
+
+}  // namespace motex::cli

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "motex/core/job.h"
+#include "motex/core/options.h"
+#include "motex/motion/clip.h"
+#include "motex/motion_texture/synthesize.h"
+
+namespace motex {
+
+/// A frame of a clip that the model was learned from, counted from 0 in the clip as read.
+struct ClipFrame {
+  std::string clip;  ///< as in MotionTexture::clip_names, with or without its extension
+  Index frame = 0;
+};
+
+/// Corpus row of a frame. Throws InvalidInput when the model has no such clip, or several; when the clip has no such
+/// frame; when the frame was left out of learning, naming the nearest that was not.
+Index corpus_row(const MotionTexture& model, const ClipFrame& pose);
+
+struct ChoreographyRequest {
+  struct Via {
+    ClipFrame pose;
+    Index frame = 0;  ///< output frames `frame` and `frame` + 1 are that frame and the next of its clip
+  };
+  ClipFrame start;                 ///< i: output frames 0 and 1 are i and i + 1
+  ClipFrame end;                   ///< j: the last two output frames are j − 1 and j
+  Index num_frames = 0;            ///< N
+  std::vector<Via> via;            ///< by rising output frame
+  std::optional<RootPlace> place;  ///< of output frame 0; where the start frame stands in its clip when not given
+};
+
+struct ChoreographyOptions {
+  double noise = 0;
+  NoiseSource noise_source = NoiseSource::kReplay;
+  double nearness = 1;
+  double stretch = 0.15;
+  bool foot_fix = true;
+  std::uint64_t seed = 1;
+
+  template <typename Self, typename Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"noise", "",
+                "strength of fresh noise against the texton's own (auto: 0.2 on top of replayed residuals, 1 for "
+                "white noise)"},
+          self.noise, Range{1e-9, 3, true});
+    visit(Field{"noise_source", "",
+                "replay: the residuals of the example, plus fresh noise; white: noise alone, as in the paper"},
+          self.noise_source, Choices{{"replay", "white"}});
+    visit(Field{"nearness", "", "how much the poses of neighbours may differ, relative to the usual"}, self.nearness,
+          Range{0.01, 100});
+    visit(Field{"stretch", "", "how much longer or shorter than itself an example may be played"}, self.stretch,
+          Range{0, 1});
+    visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
+    visit(Field{"seed", "", "random seed"}, self.seed, Range{0, 1.8e19});
+  }
+};
+
+/// A texton as it was played: output frames start … start + length − 1, of which it shares two with each neighbour.
+struct ChoreographedTexton {
+  int texton = 0;
+  int instance = 0;
+  Index start = 0, length = 0;
+  Index source_row = 0, source_length = 0;  ///< of the corpus
+  double first_distance = 0;                ///< cm (root mean square of two frames) by which its first poses were bent
+  double last_distance = 0;                 ///< and its last ones
+};
+
+struct ChoreographyReport {
+  std::vector<ChoreographedTexton> played;
+  double log_prob = 0;        ///< Σ log M over the transitions
+  double cost = 0;            ///< what was minimised (ChoreographyPlanner)
+  double start_distance = 0;  ///< cm from the start poses to those of the example that begins there
+  double end_distance = 0;    ///< cm from the end poses to those of the example that ends there
+};
+
+/// A dance from pose to pose in exactly N frames [MT02 5.2, Figure 1]. Body pose, tilt and height of the first two and
+/// last two frames, and of the frames of `via`, are those of the examples, also after planted feet were held. Warns
+/// where a pose is far from every example. Throws InvalidInput for a frame that does not exist, `via` out of order, or
+/// no way in that many frames, naming the nearest N.
+Clip choreograph(const MotionTexture& model, const ChoreographyRequest& request, const ChoreographyOptions& options,
+                 ChoreographyReport& report, const JobContext& job = {});
+
+}  // namespace motex

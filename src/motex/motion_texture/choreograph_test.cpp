@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/motion_texture/choreograph.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "motex/core/error.h"
+#include "motex/motion_texture/choreography_plan.h"
+#include "motex/motion_texture/jumps.h"
+#include "motex/motion_texture/learn.h"
+#include "motex/motion_texture/synthetic.h"
+
+namespace motex {
+namespace {
+
+const std::vector<Clip>& clips() {
+  static const std::vector<Clip> some = walking_clips(4, 500);
+  return some;
+}
+
+const MotionTexture& model() {
+  static const MotionTexture learned = [] {
+    LearnOptions options;
+    options.state_size = 8;
+    options.init = Init::kGreedy;
+    LearnReport report;
+    return learn_motion_texture(clips(), options, report);
+  }();
+  return learned;
+}
+
+ChoreographyRequest request(Index frames, Index start = 130, Index end = 310) {
+  ChoreographyRequest out;
+  out.start = {"walk_0.bvh", start};
+  out.end = {"walk_2", end};
+  out.num_frames = frames;
+  return out;
+}
+
+/// Features of output frame t, encoded anew, against those of a frame of a clip: height, tilt and joints, in cm.
+double pose_error(const Clip& dance, Index t, const std::string& clip, Index frame) {
+  const FrameMatrix found = encode(model().features, dance);
+  const Index row = corpus_row(model(), {clip, frame});
+  const Vector difference = (found.row(t) - model().corpus.row(row).cast<double>()).transpose();
+  double largest = std::abs(difference[2]);
+  for (Index c = 4; c < difference.size(); ++c)
+    largest = std::max(largest, std::abs(difference[c]) / model().features.weights[c]);
+  return largest;
+}
+
+std::string message_of(const ChoreographyRequest& wanted, const ChoreographyOptions& options = {}) {
+  ChoreographyReport report;
+  try {
+    choreograph(model(), wanted, options, report);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(Choreograph, WrongRequestsAreNamed) {
+  ChoreographyRequest wanted = request(200);
+  wanted.start.clip = "run.bvh";
+  EXPECT_TRUE(contains(message_of(wanted), "no clip run.bvh; it has walk_0.bvh")) << message_of(wanted);
+  EXPECT_TRUE(contains(message_of(request(200, 500)), "walk_0.bvh@500: the clip has frames 0 … 499"));
+  EXPECT_TRUE(contains(message_of(request(200, -1)), "walk_0.bvh@-1"));
+  EXPECT_TRUE(contains(message_of(request(200, 499)), "follows it"));
+  EXPECT_TRUE(contains(message_of(request(200, 130, 0)), "precedes it"));
+  wanted.start.clip = "walk_0.npz";
+  EXPECT_EQ(message_of(wanted), "") << "extensions do not count where names differ without them";
+  EXPECT_NE(message_of(request(1)), "");
+  EXPECT_NE(message_of(request(-5)), "");
+  ChoreographyOptions options;
+  options.stretch = 2;
+  EXPECT_NE(message_of(request(200), options), "");
+  wanted = request(400);
+  wanted.via = {{{"walk_1", 100}, 398}};
+  EXPECT_TRUE(contains(message_of(wanted), "walk_1@100: frame 398 is not")) << message_of(wanted);
+  wanted.via = {{{"walk_1", 100}, 200}, {{"walk_1", 150}, 150}};
+  EXPECT_TRUE(contains(message_of(wanted), "walk_1@150: frame 150 is not")) << message_of(wanted);
+}
+
+TEST(Choreograph, AFrameThatWasLeftOutNamesTheNearest) {
+  std::vector<Clip> some = walking_clips(3, 400);
+  for (Index t = 200; t < 203; ++t)
+    some[0].set_translation(t, 0, some[0].translation(t, 0) + Vector3(0, 90.0 * static_cast<double>(t - 198), 0));
+  LearnOptions options;
+  options.state_size = 6;
+  LearnReport learned;
+  const MotionTexture with_gap = learn_motion_texture(some, options, learned);
+  ASSERT_GT(learned.num_glitch_frames, 0);
+  std::string message;
+  try {
+    corpus_row(with_gap, {"walk_0.bvh", 201});
+  } catch (const InvalidInput& error) {
+    message = error.what();
+  }
+  EXPECT_TRUE(contains(message, "walk_0.bvh@201: this frame was left out")) << message;
+  EXPECT_TRUE(contains(message, "the nearest that was not is ")) << message;
+}
+
+TEST(Choreograph, HasExactlyTheFramesAskedFor) {
+  ChoreographyOptions options;
+  options.foot_fix = false;
+  for (Index n = 130; n < 700; n += n < 200 ? 1 : 37) {
+    ChoreographyReport report;
+    const Clip dance = choreograph(model(), request(n), options, report);
+    ASSERT_EQ(dance.num_frames(), n);
+    check_clip(dance);
+    Index sum = 0;
+    for (const ChoreographedTexton& played : report.played) {
+      EXPECT_EQ(played.start, sum);
+      sum += played.length - 2;
+      EXPECT_LE(static_cast<double>(played.length), 1.15 * static_cast<double>(played.source_length) + 1e-9);
+      EXPECT_GE(static_cast<double>(played.length), static_cast<double>(played.source_length) / 1.15 - 1e-9);
+    }
+    EXPECT_EQ(sum + 2, n);
+  }
+}
+
+TEST(Choreograph, MeetsTheFirstAndLastTwoFrames) {
+  for (const bool foot_fix : {false, true})
+    for (const NoiseSource source : {NoiseSource::kReplay, NoiseSource::kWhite})
+      for (const Index n : {150, 320, 611}) {
+        ChoreographyOptions options;
+        options.foot_fix = foot_fix;
+        options.noise_source = source;
+        ChoreographyReport report;
+        const Clip dance = choreograph(model(), request(n), options, report);
+        EXPECT_LT(pose_error(dance, 0, "walk_0.bvh", 130), 1e-6);
+        EXPECT_LT(pose_error(dance, 1, "walk_0.bvh", 131), 1e-6);
+        EXPECT_LT(pose_error(dance, n - 2, "walk_2.bvh", 309), 1e-6);
+        EXPECT_LT(pose_error(dance, n - 1, "walk_2.bvh", 310), 1e-6);
+      }
+}
+
+TEST(Choreograph, MeetsAnyPoseOfTheModel) {
+  ChoreographyOptions options;
+  options.foot_fix = false;
+  for (Index start = 0; start <= 498; start += 83)
+    for (Index end = 1; end <= 499; end += 83) {
+      ChoreographyReport report;
+      const Clip dance = choreograph(model(), request(260, start, end), options, report);
+      EXPECT_LT(pose_error(dance, 0, "walk_0.bvh", start), 1e-6);
+      EXPECT_LT(pose_error(dance, 259, "walk_2.bvh", end), 1e-6);
+    }
+}
+
+TEST(Choreograph, PassesThroughPosesOnTheWay) {
+  ChoreographyRequest wanted = request(700);
+  wanted.via = {{{"walk_1.bvh", 222}, 250}, {{"walk_3.bvh", 77}, 480}};
+  ChoreographyReport report;
+  const Clip dance = choreograph(model(), wanted, {}, report);
+  EXPECT_EQ(dance.num_frames(), 700);
+  EXPECT_LT(pose_error(dance, 250, "walk_1.bvh", 222), 1e-6);
+  EXPECT_LT(pose_error(dance, 251, "walk_1.bvh", 223), 1e-6);
+  EXPECT_LT(pose_error(dance, 480, "walk_3.bvh", 77), 1e-6);
+  EXPECT_LT(pose_error(dance, 481, "walk_3.bvh", 78), 1e-6);
+  EXPECT_LT(pose_error(dance, 699, "walk_2.bvh", 310), 1e-6);
+}
+
+TEST(Choreograph, AStretchOfTheSourceIsTheLikeliestDanceBetweenItsEnds) {
+  ChoreographyRequest wanted = request(221, 100, 320);
+  wanted.end.clip = "walk_0.bvh";
+  ChoreographyOptions options;
+  options.foot_fix = false;
+  options.noise = 1e-9;
+  ChoreographyReport report;
+  const Clip dance = choreograph(model(), wanted, options, report);
+  EXPECT_LT(report.start_distance + report.end_distance, 1e-9);
+  EXPECT_LT((dance.rotations - slice(clips()[0], 100, 221).rotations).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((dance.translations - slice(clips()[0], 100, 221).translations).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(Choreograph, WithoutAWayTheNearestLengthIsNamedAndWorks) {
+  const std::string message = message_of(request(5));
+  const std::string before = "the nearest that works is ";
+  ASSERT_TRUE(contains(message, before)) << message;
+  const Index nearest = std::stol(message.substr(message.find(before) + before.size()));
+  EXPECT_GT(nearest, 5);
+  for (Index n = 5; n < nearest; ++n) EXPECT_NE(message_of(request(n)), "") << n;
+  EXPECT_EQ(message_of(request(nearest)), "");
+}
+
+TEST(Choreograph, StandsWhereItIsPut) {
+  ChoreographyRequest wanted = request(200);
+  wanted.place = RootPlace{12, -7, 1.5};
+  ChoreographyReport report;
+  const Clip dance = choreograph(model(), wanted, {}, report);
+  const RootPlace place = root_place(model().features, dance, 0);
+  EXPECT_NEAR(place.x, 12, 1e-9);
+  EXPECT_NEAR(place.z, -7, 1e-9);
+  EXPECT_NEAR(place.heading, 1.5, 1e-9);
+  wanted.place.reset();
+  const Clip home = choreograph(model(), wanted, {}, report);
+  const RootPlace found = root_place(model().features, home, 0), source = root_place(model().features, clips()[0], 130);
+  EXPECT_NEAR(found.x, source.x, 0.02);
+  EXPECT_NEAR(found.z, source.z, 0.02);
+  EXPECT_NEAR(std::remainder(found.heading - source.heading, 2 * 3.14159265358979), 0, 1e-3);
+}
+
+TEST(Choreograph, OneSeedIsOneDance) {
+  ChoreographyOptions options;
+  ChoreographyReport report;
+  const Clip a = choreograph(model(), request(333), options, report);
+  EXPECT_EQ(a.rotations, choreograph(model(), request(333), options, report).rotations);
+  options.seed = 2;
+  EXPECT_NE(a.rotations, choreograph(model(), request(333), options, report).rotations);
+}
+
+TEST(Choreograph, StepsAreNoLargerThanInTheExamples) {
+  const auto largest_bend = [](const Clip& clip) {
+    const FrameMatrix p = world_positions(clip);
+    double largest = 0;
+    for (Index t = 1; t + 1 < p.rows(); ++t)
+      largest = std::max(largest, (p.row(t + 1) - 2 * p.row(t) + p.row(t - 1)).cwiseAbs().maxCoeff());
+    return largest;
+  };
+  double source = 0;
+  for (const Clip& clip : clips()) source = std::max(source, largest_bend(clip));
+  for (const Index n : {150, 173, 320, 487}) {
+    ChoreographyReport report;
+    EXPECT_LT(largest_bend(choreograph(model(), request(n), {}, report)), 2 * source) << n;
+  }
+}
+
+/// What the planner minimises, by trying every chain of instances and lengths.
+struct Exhaustive {
+  double stretch;
+  Index end_row, wanted;
+  double best = 1e300;
+  double tau = usual_jump_distance(model());
+
+  double pace(Index l, Index n) const {
+    const double ratio = std::log(static_cast<double>(l) / static_cast<double>(n)) / std::log1p(stretch);
+    return l == n ? 0 : ratio * ratio;
+  }
+  /// Instance a begins at frame `frames` at this cost.
+  void go(int a, Index frames, double cost) {
+    if (cost >= best) return;
+    const MotionTexture& m = model();
+    const Instance& from = m.instances[static_cast<std::size_t>(a)];
+    const Index n = hand_over_row(m, from) + 2 - from.row;
+    for (Index l = 60; l <= 2 * n; ++l) {
+      const double ratio = static_cast<double>(l) / static_cast<double>(n);
+      if (ratio < 1 / (1 + stretch) - 1e-9 || ratio > 1 + stretch + 1e-9 || frames + l - 2 > wanted) continue;
+      const double now = cost + pace(l, n);
+      const Index end = hand_over_row(m, from);
+      if (frames + l - 2 == wanted)
+        best = std::min(best, now + key_pose_distance(m.corpus, end, end_row) / tau + std::log(1.3 / 0.3));
+      for (int b = 0; b < static_cast<int>(m.instances.size()); ++b) {
+        const Instance& to = m.instances[static_cast<std::size_t>(b)];
+        const double log_prob = m.transitions.log_prob(from.texton, to.texton);
+        if (!std::isfinite(log_prob)) continue;
+        const double there = now - log_prob + key_pose_distance(m.corpus, end, to.row) / tau;
+        if (to.row == end_row && frames + l - 2 == wanted) best = std::min(best, there);
+        go(b, frames + l - 2, there);
+      }
+    }
+  }
+};
+
+TEST(ChoreographyPlanner, FindsTheCheapestOfAllWays) {
+  const MotionTexture& m = model();
+  const ChoreographyPlanner planner(m);
+  const int last = static_cast<int>(m.instances.size()) - 1;
+  int num_feasible = 0;
+  for (const Index n : {70, 131, 160, 195}) {
+    PlanRequest wanted;
+    wanted.start_row = m.instances[1].row;
+    wanted.end_row = m.instances[static_cast<std::size_t>(last)].row;
+    wanted.num_frames = n;
+    wanted.stretch = 0.05;
+    Exhaustive all{wanted.stretch, wanted.end_row, n - 2};
+    all.go(1, 0, 0);
+    for (int b = 0; b <= last; ++b)
+      all.go(b, 0,
+             key_pose_distance(m.corpus, wanted.start_row, m.instances[static_cast<std::size_t>(b)].row) / all.tau +
+                 std::log(1.3 / 0.3));
+    if (all.best == 1e300) {
+      EXPECT_THROW(planner.plan(wanted), InvalidInput) << n;
+    } else {
+      ++num_feasible;
+      EXPECT_NEAR(planner.plan(wanted).cost, all.best, 1e-9) << n;
+    }
+  }
+  EXPECT_GE(num_feasible, 2);
+}
+
+}  // namespace
+}  // namespace motex
