@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "motex/motion/length_unit.h"
 #include "motex/project/load_clips.h"
 #include "text_table.h"
 
@@ -16,6 +17,7 @@ std::vector<Clip> load_clips_for(const MotionTexture& model, const std::vector<s
   for (Clip& clip : clips) {
     const std::string difference = skeleton_difference(model.features.skeleton, clip.skeleton);
     if (!difference.empty()) throw InvalidInput(clip.name + " is of another skeleton than the model: " + difference);
+    match_unit(clip, model.features.skeleton, session.job(0, 0.2));
     if (std::abs(clip.frame_time_secs - wanted) <= 1e-3 * wanted) {
       clip.frame_time_secs = wanted;
       continue;

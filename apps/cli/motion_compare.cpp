@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "closest.h"
 #include "commands.h"
+#include "motex/motion/length_unit.h"
 #include "motex/motion/measures.h"
 #include "motex/motion_io/clip_io.h"
 #include "motex/project/load_clips.h"
@@ -83,7 +84,9 @@ struct Compare {
   void run(Session& session) {
     const std::vector<Clip> reference =
         load_clips({reference_paths.begin(), reference_paths.end()}, read, session.job(0, 0.1));
-    const Clip generated = read_clip(generated_path, read, session.job(0.1, 0.2));
+    Clip generated = read_clip(generated_path, read, session.job(0.1, 0.2));
+    const Skeleton& skeleton = reference[0].skeleton;
+    if (skeleton_difference(generated.skeleton, skeleton).empty()) match_unit(generated, skeleton, session.job(0, 0.2));
     const CompareReport report = compare_motion(reference, generated, options, session.job(0.2, 1));
     Value object = report_value(report);
     object["options"] = options_value(options);

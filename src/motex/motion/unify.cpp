@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "motex/core/error.h"
+#include "motex/motion/length_unit.h"
 
 namespace motex {
 namespace {
@@ -15,6 +16,7 @@ constexpr double kLargestDifference = 0.05;  // of a bone's length
 constexpr double kShortBone = 0.01;          // of the body: the length that counts at least
 constexpr double kSameRate = 1e-4;           // 1/60 and 0.0166667 are one rate
 constexpr double kStill = 1e-6;              // of a bone's length
+constexpr double kWorthSaying = 5e-4;        // of a bone's length: a file's rounding is not
 
 std::size_t at(int idx) { return static_cast<std::size_t>(idx); }
 
@@ -46,17 +48,13 @@ void check_same_joints(const std::vector<Clip>& clips) {
   }
 }
 
-void unify_units(std::vector<Clip>& clips) {
-  const Clip* known = nullptr;
-  for (const Clip& clip : clips) {
-    const double unit = clip.skeleton.metres_per_unit;
-    if (!(unit > 0)) continue;
-    if (known != nullptr && std::abs(unit / known->skeleton.metres_per_unit - 1) > 1e-6)
-      throw InvalidInput(known->name + " and " + clip.name + " are in different units of length; convert one of them");
-    known = &clip;
+void unify_units(std::vector<Clip>& clips, const JobContext& job) {
+  double& unit = clips[0].skeleton.metres_per_unit;
+  for (Clip& clip : clips) {
+    // Two clips that do not know their units are taken to be in one.
+    if (unit > 0 || clip.skeleton.metres_per_unit > 0) match_unit(clip, clips[0].skeleton, job);
+    if (!(unit > 0)) unit = clip.skeleton.metres_per_unit;
   }
-  if (known == nullptr) return;
-  const double unit = known->skeleton.metres_per_unit;
   for (Clip& clip : clips) clip.skeleton.metres_per_unit = unit;
 }
 
@@ -117,7 +115,7 @@ void unify_end_sites(std::vector<Clip>& clips) {
 
 void unify_skeletons(std::vector<Clip>& clips, const JobContext& job) {
   check_same_joints(clips);
-  unify_units(clips);
+  unify_units(clips, job);
   const double shortest = kShortBone * body_size(clips[0].skeleton);
   double largest = 0;
   std::string where;
@@ -126,7 +124,7 @@ void unify_skeletons(std::vector<Clip>& clips, const JobContext& job) {
     if (difference > largest) largest = difference, where = clips[0].skeleton.joints[at(j)].name;
   }
   unify_end_sites(clips);
-  if (largest > 0)
+  if (largest > kWorthSaying)
     job.warn("the clips' bones differ by up to " + fixed(100 * largest, 1) + " % (joint '" + where +
              "'); their mean lengths are used");
 }

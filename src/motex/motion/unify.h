@@ -14,9 +14,9 @@ namespace motex {
 /// Skeletons agree when joint names and parents do. Offsets may differ by 5 % of their length (short bones: of 1 % of
 /// all bones together) and are averaged over the clips; the translations of such joints, which stand still, follow.
 /// Roots, and joints that travel in some clip, take their place from the frames: their offsets, all channels and the
-/// end sites become those of the first clip. Of different frame rates the lowest is kept. A known unit holds for all.
-/// Each kind of change is said once by job.warn. Throws InvalidInput naming two clips and the first joint that differs,
-/// or two units.
+/// end sites become those of the first clip. Of different frame rates the lowest is kept. Lengths are brought to the
+/// first clip's unit where units are known (see match_unit); a known unit holds for all. Changes are said by job.warn.
+/// Throws InvalidInput naming two clips and the first joint that differs.
 void unify_clips(std::vector<Clip>& clips, const JobContext& job = {});
 
 }  // namespace motex

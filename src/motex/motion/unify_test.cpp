@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "motex/core/error.h"
+#include "motex/motion/length_unit.h"
 
 namespace motex {
 namespace {
@@ -43,10 +44,25 @@ TEST(Unify, RefusesOtherSkeletons) {
   expect_refused({leg("a", 45, 60), renamed}, "of a and b differ: joint 1 is 'knee' in one and 'Knee' in the other");
   expect_refused({leg("a", 45, 60), leg("b", 44, 60), leg("c", 52, 60)},
                  "of a and c differ: the offset of joint 'knee'");
-  Clip metres = leg("b", 45, 60), feet = leg("c", 45, 60);
-  metres.skeleton.metres_per_unit = 1;
-  feet.skeleton.metres_per_unit = 0.3048;
-  expect_refused({leg("a", 45, 60), metres, feet}, "b and c are in different units");
+  Clip doubled = leg("b", 45, 60);
+  scale_lengths(doubled, 2);
+  expect_refused({leg("a", 45, 60), doubled}, "of a and b differ: the offset of joint 'knee'");
+}
+
+TEST(Unify, BringsAllToTheFirstUnit) {
+  Warnings warnings;
+  std::vector<Clip> clips{leg("a", 45, 60), leg("b", 45, 60), leg("c", 45, 60), leg("d", 45, 60)};
+  clips[1].skeleton.metres_per_unit = clips[3].skeleton.metres_per_unit = 0.01;
+  scale_lengths(clips[1], 0.01);
+  scale_lengths(clips[3], 1 / 30.48);
+  unify_clips(clips, warnings.job);
+  ASSERT_EQ(warnings.said.size(), 2U);
+  EXPECT_NE(warnings.said[0].find("b: is in another unit"), std::string::npos) << warnings.said[0];
+  EXPECT_NE(warnings.said[1].find("d: is in another unit"), std::string::npos) << warnings.said[1];
+  for (const Clip& clip : clips) {
+    EXPECT_LT((clip.translations - leg("", 45, 60).translations).cwiseAbs().maxCoeff(), 1e-9) << clip.name;
+    EXPECT_DOUBLE_EQ(clip.skeleton.metres_per_unit, 0.01);
+  }
 }
 
 TEST(Unify, LeavesEqualClipsAlone) {
