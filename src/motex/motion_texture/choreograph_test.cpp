@@ -176,6 +176,24 @@ TEST(Choreograph, AStretchOfTheSourceIsTheLikeliestDanceBetweenItsEnds) {
   EXPECT_LT((dance.translations - slice(clips()[0], 100, 221).translations).cwiseAbs().maxCoeff(), 0.05);
 }
 
+TEST(Choreograph, TheSourceSlowerOrFasterGoesTheSameWay) {
+  const RootPlace from = root_place(model().features, clips()[0], 100),
+                  to = root_place(model().features, clips()[0], 320);
+  const double way = std::hypot(to.x - from.x, to.z - from.z);
+  ASSERT_GT(way, 100);
+  for (const Index n : {205, 240}) {
+    ChoreographyRequest wanted = request(n, 100, 320);
+    wanted.end.clip = "walk_0.bvh";
+    ChoreographyOptions options;
+    options.foot_fix = false;
+    options.noise = 1e-9;
+    ChoreographyReport report;
+    const Clip dance = choreograph(model(), wanted, options, report);
+    const RootPlace end = root_place(model().features, dance, n - 1);
+    EXPECT_LT(std::hypot(end.x - to.x, end.z - to.z), 0.01 * way) << n;
+  }
+}
+
 TEST(Choreograph, WithoutAWayTheNearestLengthIsNamedAndWorks) {
   const std::string message = message_of(request(5));
   const std::string before = "the nearest that works is ";
@@ -251,7 +269,7 @@ struct Exhaustive {
       const double now = cost + pace(l, n);
       const Index end = hand_over_row(m, from);
       if (frames + l - 2 == wanted)
-        best = std::min(best, now + key_pose_distance(m.corpus, end, end_row) / tau + std::log(1.3 / 0.3));
+        best = std::min(best, now + 2 * key_pose_distance(m.corpus, end, end_row) / tau + std::log(1.3 / 0.3));
       for (int b = 0; b < static_cast<int>(m.instances.size()); ++b) {
         const Instance& to = m.instances[static_cast<std::size_t>(b)];
         const double log_prob = m.transitions.log_prob(from.texton, to.texton);
@@ -279,7 +297,7 @@ TEST(ChoreographyPlanner, FindsTheCheapestOfAllWays) {
     all.go(1, 0, 0);
     for (int b = 0; b <= last; ++b)
       all.go(b, 0,
-             key_pose_distance(m.corpus, wanted.start_row, m.instances[static_cast<std::size_t>(b)].row) / all.tau +
+             2 * key_pose_distance(m.corpus, wanted.start_row, m.instances[static_cast<std::size_t>(b)].row) / all.tau +
                  std::log(1.3 / 0.3));
     if (all.best == 1e300) {
       EXPECT_THROW(planner.plan(wanted), InvalidInput) << n;

@@ -15,6 +15,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostFollowers = 24, kLeastPredecessors = 4;
 constexpr double kMostCells = 1e8;
+constexpr double kBend = 2;  // bending the first or last poses of a dance against bending those at a joint
 const double kJumpCost = std::log(1.3 / 0.3);
 
 std::size_t at(int instance) { return static_cast<std::size_t>(instance); }
@@ -176,7 +177,7 @@ double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edg
 void ChoreographyPlanner::Search::fill(const JobContext& job) {
   begun_.assign(width_ * sources_.size(), kNever);
   done_.assign(width_ * sources_.size(), kNever);
-  for (int b = 0; b < rest_; ++b) begun(b, 0) = bend_distance(wanted_.start_row, b) / tau_ + kJumpCost;
+  for (int b = 0; b < rest_; ++b) begun(b, 0) = kBend * bend_distance(wanted_.start_row, b) / tau_ + kJumpCost;
   if (has_rest_) begun(rest_, 0) = 0;
   for (Index f = 1; f <= horizon_; ++f) {
     job.check_cancelled();
@@ -204,7 +205,7 @@ ChoreographyPlanner::Search::Finish ChoreographyPlanner::Search::finish(Index fr
   }
   for (int node = 0; node <= rest_; ++node)
     if ((node != rest_ || rest_can_bend_) && done(node, frames) < best.cost)
-      consider(done(node, frames) + end_distance(node) / tau_ + kJumpCost, node, false, 0);
+      consider(done(node, frames) + kBend * end_distance(node) / tau_ + kJumpCost, node, false, 0);
   return best;
 }
 

@@ -42,7 +42,7 @@ struct Plan {
 ///
 /// τ and δ as in InstanceWalk. The dance goes in by the rest of the instance that holds the start frame and comes out
 /// by the beginning of the one that holds the end frame; or it starts, or ends, with any instance whose first, or last,
-/// poses are bent to the wanted ones, at δ/τ + log(1.3/0.3): what a jump costs.
+/// poses are bent to the wanted ones, at 2 δ/τ + log(1.3/0.3), where the logarithm is what a jump costs.
 ///
 /// Throws InvalidInput naming the nearest N when none of these makes N frames, or when N × instances is above 10⁸.
 /// O(instances · N · (24 + stretched lengths)).
