@@ -274,7 +274,7 @@ struct Exhaustive {
         const Instance& to = m.instances[static_cast<std::size_t>(b)];
         const double log_prob = m.transitions.log_prob(from.texton, to.texton);
         if (!std::isfinite(log_prob)) continue;
-        const double there = now - log_prob + key_pose_distance(m.corpus, end, to.row) / tau;
+        const double there = now - log_prob + key_pose_distance(m.corpus, end, to.row) / tau + (a == b ? 2 : 0);
         if (to.row == end_row && frames + l - 2 == wanted) best = std::min(best, there);
         go(b, frames + l - 2, there);
       }

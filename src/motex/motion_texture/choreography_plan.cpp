@@ -15,7 +15,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostFollowers = 24, kLeastPredecessors = 4;
 constexpr double kMostCells = 1e8;
-constexpr double kBend = 2;  // bending the first or last poses of a dance against bending those at a joint
+constexpr double kBend = 2;        // bending the first or last poses of a dance against bending those at a joint
+constexpr double kRepeatCost = 2;  // of an example that follows itself: what is likeliest must not stand still
 const double kJumpCost = std::log(1.3 / 0.3);
 
 std::size_t at(int instance) { return static_cast<std::size_t>(instance); }
@@ -66,7 +67,9 @@ struct ChoreographyPlanner::Search {
   double done(int node, Index frames) const { return done_[at(node) * width_ + static_cast<std::size_t>(frames)]; }
   double best_length(int node, Index frames, Index& length) const;
   double best_predecessor(int node, Index frames, Edge& edge) const;
-  double edge_cost(const Edge& edge) const { return -edge.log_prob + edge.distance / tau_; }
+  double edge_cost(const Edge& edge, int to) const {
+    return -edge.log_prob + edge.distance / tau_ + (instance_of(edge.from) == to ? kRepeatCost : 0);
+  }
   double pace_cost(const Source& source, Index length) const;
   double bend_distance(Index row, int node) const { return key_pose_distance(model_.corpus, row, source(node).row); }
   double end_distance(int node) const;
@@ -158,7 +161,7 @@ double ChoreographyPlanner::Search::best_length(int node, Index frames, Index& l
 double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edge& edge) const {
   double best = kNever;
   for (const Edge& e : predecessors_[at(node)]) {
-    const double cost = done(e.from, frames) + edge_cost(e);
+    const double cost = done(e.from, frames) + edge_cost(e, node);
     if (cost < best) best = cost, edge = e;
   }
   const double rest_cost = done(rest_, frames);
@@ -170,7 +173,7 @@ double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edg
   if (!std::isfinite(log_prob)) return best;
   const Edge e{rest_, key_pose_distance(model_.corpus, source(rest_).row + source(rest_).length - 2, source(node).row),
                log_prob};
-  if (rest_cost + edge_cost(e) < best) best = rest_cost + edge_cost(e), edge = e;
+  if (rest_cost + edge_cost(e, node) < best) best = rest_cost + edge_cost(e, node), edge = e;
   return best;
 }
 

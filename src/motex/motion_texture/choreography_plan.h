@@ -40,9 +40,10 @@ struct Plan {
 ///
 ///   −log M + δ(a, b)/τ + (log(l/l_a) / log(1 + stretch))²,   l_a/(1 + stretch) ≤ l ≤ (1 + stretch) l_a,   l ≥ T_min
 ///
-/// τ and δ as in InstanceWalk. The dance goes in by the rest of the instance that holds the start frame and comes out
-/// by the beginning of the one that holds the end frame; or it starts, or ends, with any instance whose first, or last,
-/// poses are bent to the wanted ones, at 2 δ/τ + log(1.3/0.3), where the logarithm is what a jump costs.
+/// and 2 more when a = b. τ and δ as in InstanceWalk. The dance goes in by the rest of the instance that holds the
+/// start frame and comes out by the beginning of the one that holds the end frame; or it starts, or ends, with any
+/// instance whose first, or last, poses are bent to the wanted ones, at 2 δ/τ + log(1.3/0.3), where the logarithm is
+/// what a jump costs.
 ///
 /// Throws InvalidInput naming the nearest N when none of these makes N frames, or when N × instances is above 10⁸.
 /// O(instances · N · (24 + stretched lengths)).
