@@ -17,7 +17,7 @@
 namespace motex::cli {
 namespace {
 
-constexpr double kMaxFrames = 1e8;
+constexpr double kMaxFrames = 2e7;
 
 /// "3,17,17,5".
 std::vector<int> parse_path(const std::string& text) {
@@ -89,7 +89,7 @@ struct Synthesize {
     arguments.value("--frames", "N", "length in frames", frames).set = [this](const std::string& text) {
       parse_value("--frames", text, frames);
       if (frames < 1 || static_cast<double>(frames) > kMaxFrames)
-        throw InvalidInput("--frames: " + text + " is outside 1 … 1e8");
+        throw InvalidInput("--frames: " + text + " is outside 1 … 2e7");
       has_frames = true;
     };
     arguments.value("--secs", "S", "length in seconds", secs).set = [this](const std::string& text) {
@@ -113,7 +113,7 @@ struct Synthesize {
     if (has_frames) return frames;
     if (!has_secs) return 0;
     const double wanted = std::round(secs / frame_time_secs);
-    if (wanted > kMaxFrames) throw InvalidInput("--secs: more than 1e8 frames");
+    if (wanted > kMaxFrames) throw InvalidInput("--secs: more than 2e7 frames");
     return std::max<Index>(1, static_cast<Index>(wanted));
   }
 

@@ -207,7 +207,7 @@ TEST(Segment, ShortAndForeignClips) {
   LearnReport report;
   const MotionTexture model = learn_motion_texture(clips, small_options(), report);
   EXPECT_EQ(segment_clip(model, slice(clips[0], 0, 20)).size(), 1U) << "shorter than a segment: one";
-  EXPECT_THROW(segment_clip(model, slice(clips[0], 0, 1)), InvalidInput);
+  for (const Index few : {1, 2}) EXPECT_THROW(segment_clip(model, slice(clips[0], 0, few)), InvalidInput);
   EXPECT_THROW(score_clips(model, {}), InvalidInput);
   const Clip brief = slice(clips[0], 0, 50);
   EXPECT_THROW(score_clips(model, {&brief, 1}), InvalidInput);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "motex/core/error.h"
 #include "motex/markov/segmentation.h"
@@ -48,6 +49,9 @@ SegmentOptions segment_rules(const MotionTexture& model) {
 }  // namespace
 
 std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Clip& clip) {
+  if (clip.num_frames() < 3)
+    throw InvalidInput(clip.name + ": has " + std::to_string(clip.num_frames()) +
+                       " frames; a texton can be recognised from 3 on");
   Corpus corpus;
   corpus.features = encode(model.features, clip);
   corpus.runs = {{0, 0, 0, clip.num_frames()}};
