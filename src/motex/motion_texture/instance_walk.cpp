@@ -17,7 +17,17 @@ constexpr double kPatience = 0.65;
 constexpr double kCuriosity = 6;
 constexpr double kFarthest = 1.25;  // τ
 constexpr std::size_t kMostFollowers = 24;
+constexpr double kBalanceSecs = 20, kMostBalance = 3;
 constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
+
+/// Mean movement of an example in cm a frame: of the body in its heading frame, and of its root over the floor.
+double mean_speed(const MotionTexture& model, const Instance& x) {
+  const auto y = model.corpus.middleRows(x.row, x.length);
+  const auto body = (y.bottomRows(x.length - 1) - y.topRows(x.length - 1)).rightCols(y.cols() - 4);
+  const double step = model.features.cm_per_unit / model.features.weights[0];
+  return static_cast<double>(body.rowwise().norm().mean()) +
+         step * static_cast<double>(y.leftCols(2).rowwise().norm().mean());
+}
 
 }  // namespace
 
@@ -30,6 +40,7 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
       rng_(Rng(options.seed).fork(1)),
       tau_(options.nearness * usual_jump_distance(model)),
       texton_allowed_(model.textons.size(), false),
+      liveliness_(model.instances.size(), 0),
       freshness_(model.instances.size(), 1),
       value_(model.instances.size(), 1) {
   for (const int texton : path_)
@@ -44,6 +55,7 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
   }
   for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) followers_.push_back(followers_of(i));
   lead_into_every_instance();
+  find_liveliness();
 }
 
 /// An instance that starts a clip follows nothing, and may lie near no end: the nearest possible end is made to lead
@@ -101,6 +113,19 @@ std::vector<InstanceWalk::Follower> InstanceWalk::followers_of(int instance) con
   return out;
 }
 
+void InstanceWalk::find_liveliness() {
+  const auto frames = [&](const Instance& x) { return static_cast<double>(x.length); };
+  double count = 0, sum = 0, squares = 0;
+  for (const int i : allowed_) {
+    const Instance& x = model_.instances[static_cast<std::size_t>(i)];
+    const double speed = mean_speed(model_, x);
+    liveliness_[static_cast<std::size_t>(i)] = speed;
+    count += frames(x), sum += frames(x) * speed, squares += frames(x) * speed * speed;
+  }
+  const double mean = sum / count, deviation = std::sqrt(std::max(1e-12, squares / count - mean * mean));
+  for (double& z : liveliness_) z = (z - mean) / deviation;
+}
+
 void InstanceWalk::look_ahead() {
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t b = value_.size(); b-- > 0;) {
@@ -118,7 +143,8 @@ int InstanceWalk::choose_endless() {
   for (const Follower& b : followers) freshest = std::max(freshest, value_[static_cast<std::size_t>(b.instance)]);
   std::vector<double> weights;
   for (const Follower& b : followers)
-    weights.push_back(b.weight * std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, kCuriosity));
+    weights.push_back(b.weight * std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, kCuriosity) *
+                      std::exp(-balance_ * liveliness_[static_cast<std::size_t>(b.instance)]));
   return followers[rng_.weighted(weights)].instance;
 }
 
@@ -139,6 +165,10 @@ int InstanceWalk::next() {
     current_ = choose_endless();
   else
     return -1;
+  const double secs =
+      static_cast<double>(model_.instances[static_cast<std::size_t>(current_)].length) * model_.frame_time_secs();
+  balance_ = std::clamp(balance_ + liveliness_[static_cast<std::size_t>(current_)] * secs / kBalanceSecs, -kMostBalance,
+                        kMostBalance);
   double& fresh = freshness_[static_cast<std::size_t>(current_)];
   fresh *= 0.5;
   if (fresh < 1e-9)  // long ago counts less: what was played more than 30 times oftener than others starts anew

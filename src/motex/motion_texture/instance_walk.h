@@ -11,7 +11,8 @@ namespace motex {
 
 /// Random walk over the instances of a model [MT02 5.1]: from instance a (texton i) to b (texton j) with
 ///
-///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶,   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over followers c of b
+///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over
+///   followers c of b
 ///
 /// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
 /// Followers farther than 1.25 τ are left out where nearer ones exist. V draws the dance towards what it has not shown
@@ -32,6 +33,7 @@ class InstanceWalk {
   int choose_endless();
   int choose_of_texton(int texton);
   void look_ahead();
+  void find_liveliness();
   void lead_into_every_instance();
   double distance(int from, int to) const;
   double transition(int from, int to) const;  ///< M of their textons
@@ -47,6 +49,8 @@ class InstanceWalk {
   std::vector<int> allowed_;  ///< instances of the largest connected part
   std::vector<bool> texton_allowed_;
   std::vector<std::vector<Follower>> followers_;  ///< by instance
+  std::vector<double> liveliness_;                ///< z
+  double balance_ = 0;                            ///< β
   std::vector<double> freshness_, value_;         ///< ½^(times played), V
 };
 
