@@ -200,7 +200,7 @@ void GlbWriter::write_animation() {
     add_channel(j, "translation", translations(j), 3, j == 0);
     add_channel(j, "rotation", rotations(j), 4, false);
   }
-  root_["animations"] = {animation_};
+  root_["animations"] = Json::array({animation_});  // braces alone: an array with g++, a copy with clang
 }
 
 std::string GlbWriter::container() {
