@@ -6,7 +6,7 @@ import unittest
 
 from command import CLIPS, CommandTest, run, write_cut
 
-COMMANDS = ["learn", "info", "synthesize", "segment", "score", "compare", "features", "view", "convert"]
+COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "segment", "score", "compare", "features", "view", "convert"]
 
 
 class Usage(CommandTest):
@@ -105,6 +105,16 @@ class Json(CommandTest):
         self.assertEqual(value["seed"], 3)
         for instance in value["instances"]:
             self.has(instance, "clip", "start", "length")
+
+    def test_path_and_choreograph(self):
+        model, clip = self.model(), CLIPS[0].rsplit("/", 1)[1].removesuffix(".bvh")
+        self.one_json_object("motion", "path", model, "--from", 0, "--to", 1)
+        poses = ("--start", f"{clip}@10", "--end", f"{clip}@900", "--frames", 600)
+        outs = [self.folder / "a.bvh", self.folder / "b.bvh"]
+        for out in outs:
+            self.one_json_object("motion", "choreograph", model, *poses, "-o", out, "--seed", 2)
+        self.assertEqual(outs[0].read_bytes(), outs[1].read_bytes())
+        self.assertIn("Frames: 600", outs[0].read_text())
 
     def test_segment(self):
         self.one_json_object("motion", "segment", self.model(), CLIPS[0])
