@@ -4,7 +4,7 @@
 // rate, compared at 30 Hz by rotations only, twice as long as the clip.
 #include <cmath>
 
-#include "../motion_data.h"
+#include "bench/motion_data.h"
 #include "motex/motion/measures.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/synthesize.h"

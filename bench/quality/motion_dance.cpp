@@ -4,7 +4,7 @@
 // of the segments that the dance used.
 #include <cmath>
 
-#include "../motion_data.h"
+#include "bench/motion_data.h"
 #include "motex/motion/measures.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/synthesize.h"

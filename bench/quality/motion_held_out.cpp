@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // How well clips that were not learned from are predicted: nats per frame more than one global linear dynamic system of
 // the same state size, beside the control whose textons differ in noise alone.
-#include "../motion_data.h"
+#include "bench/motion_data.h"
 #include "motex/motion_texture/learn.h"
 
 namespace {

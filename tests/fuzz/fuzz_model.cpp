@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-#include <zlib.h>
-
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <string>
 
+#include "motex/core/archive.h"
 #include "motex/core/error.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/synthesize.h"
@@ -47,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string bytes(reinterpret_cast<const char*>(data), size);
   // The last four bytes are made the right checksum, which no mutation would find.
   if (size > 16) {
-    const auto crc = static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), data, size - 4));
+    const auto crc = motex::archive_checksum({reinterpret_cast<const char*>(data), size - 4});
     std::memcpy(bytes.data() + size - 4, &crc, 4);
   }
   motex::try_model(bytes);

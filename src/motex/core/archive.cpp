@@ -33,11 +33,6 @@ void put_name(std::string& out, const std::string& name) {
   out += name;
 }
 
-std::uint32_t checksum(std::string_view bytes) {
-  uLong crc = crc32_z(0, nullptr, 0);
-  return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
 /// Takes values off the front; every step is checked.
 struct Cursor {
   const std::string& bytes;
@@ -69,6 +64,11 @@ struct Cursor {
 };
 
 }  // namespace
+
+std::uint32_t archive_checksum(std::string_view bytes) {
+  uLong crc = crc32_z(0, nullptr, 0);
+  return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 ArchiveWriter::ArchiveWriter(const std::string& kind, std::uint32_t version) {
   header_.assign(kMagic, kMagicSize);
@@ -120,7 +120,7 @@ std::string ArchiveWriter::bytes() const {
   std::string out = header_;
   put(out, num_entries_);
   out += body_;
-  put(out, checksum(out));
+  put(out, archive_checksum(out));
   return out;
 }
 
@@ -139,7 +139,7 @@ ArchiveReader::ArchiveReader(std::string bytes, std::string name, std::string_vi
   std::uint32_t stored;
   std::memcpy(&stored, bytes_.data() + bytes_.size() - 4, 4);
   cursor.end = bytes_.size() - 4;
-  if (stored != checksum(std::string_view(bytes_).substr(0, cursor.end)))
+  if (stored != archive_checksum(std::string_view(bytes_).substr(0, cursor.end)))
     cursor.fail("the checksum does not match; the file is truncated or altered");
   const auto num_entries = cursor.take<std::uint32_t>();
   for (std::uint32_t i = 0; i < num_entries; ++i) {

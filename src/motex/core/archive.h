@@ -38,6 +38,9 @@ class ArchiveWriter {
   std::uint32_t num_entries_ = 0;
 };
 
+/// CRC-32 of the bytes, as archives end with.
+std::uint32_t archive_checksum(std::string_view bytes);
+
 /// Reads what ArchiveWriter wrote, from strangers too: every size is checked against the bytes that are there before
 /// anything is allocated. Throws ParseError (with the byte) when truncated, altered or foreign, UnsupportedFile when
 /// the kind differs or the version is newer.

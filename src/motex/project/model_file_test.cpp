@@ -3,13 +3,13 @@
 #include "motex/project/model_file.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
 
+#include "motex/core/archive.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/rng.h"
@@ -63,8 +63,7 @@ bool read_and_use(const std::string& bytes) {
 /// The bytes with the right checksum at their end.
 std::string sealed(std::string bytes) {
   const auto size = bytes.size() - 4;
-  const auto crc =
-      static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef*>(bytes.data()), size));
+  const auto crc = archive_checksum(std::string_view(bytes).substr(0, size));
   std::memcpy(bytes.data() + size, &crc, 4);
   return bytes;
 }
