@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -38,7 +39,10 @@ void parallel_for(int jobs, int num_tasks, const std::function<void(int)>& work)
   };
   std::vector<std::thread> pool;
   pool.reserve(static_cast<std::size_t>(threads) - 1);
-  for (int i = 1; i < threads; ++i) pool.emplace_back(run);
+  try {
+    for (int i = 1; i < threads; ++i) pool.emplace_back(run);
+  } catch (const std::system_error&) {  // the machine has no more threads: those there are do the work
+  }
   run();
   for (auto& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
