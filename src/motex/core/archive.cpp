@@ -33,6 +33,12 @@ void put_name(std::string& out, const std::string& name) {
   out += name;
 }
 
+/// memcpy() must not be given the null pointer that an empty array has.
+template <typename T>
+void copy_elements(const std::string& bytes, std::size_t offset, T* out, std::size_t count) {
+  if (count > 0) std::memcpy(out, bytes.data() + offset, count * sizeof(T));
+}
+
 /// Takes values off the front; every step is checked.
 struct Cursor {
   const std::string& bytes;
@@ -186,7 +192,7 @@ std::string ArchiveReader::text(const std::string& name) const {
 FrameMatrix ArchiveReader::matrix(const std::string& name, Index rows, Index cols) const {
   const Entry& entry = find(name, kDouble, rows, cols);
   FrameMatrix out(entry.rows, entry.cols);
-  std::memcpy(out.data(), bytes_.data() + entry.offset, static_cast<std::size_t>(out.size()) * sizeof(double));
+  copy_elements(bytes_, entry.offset, out.data(), static_cast<std::size_t>(out.size()));
   if (!out.allFinite()) fail("the array '" + name + "' holds a number that is not finite");
   return out;
 }
@@ -194,7 +200,7 @@ FrameMatrix ArchiveReader::matrix(const std::string& name, Index rows, Index col
 FrameMatrixF ArchiveReader::matrix_f(const std::string& name, Index rows, Index cols) const {
   const Entry& entry = find(name, kFloat, rows, cols);
   FrameMatrixF out(entry.rows, entry.cols);
-  std::memcpy(out.data(), bytes_.data() + entry.offset, static_cast<std::size_t>(out.size()) * sizeof(float));
+  copy_elements(bytes_, entry.offset, out.data(), static_cast<std::size_t>(out.size()));
   if (!out.allFinite()) fail("the array '" + name + "' holds a number that is not finite");
   return out;
 }
@@ -202,7 +208,7 @@ FrameMatrixF ArchiveReader::matrix_f(const std::string& name, Index rows, Index 
 std::vector<std::int64_t> ArchiveReader::ints(const std::string& name, Index size) const {
   const Entry& entry = find(name, kInt, size, 1);
   std::vector<std::int64_t> out(static_cast<std::size_t>(entry.rows));
-  std::memcpy(out.data(), bytes_.data() + entry.offset, out.size() * sizeof(std::int64_t));
+  copy_elements(bytes_, entry.offset, out.data(), out.size());
   return out;
 }
 
