@@ -16,9 +16,9 @@ namespace motex {
 ///
 /// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
 /// Followers farther than 1.25 τ are left out where nearer ones exist. V draws the dance towards what it has not shown
-/// lately, so that it neither goes in circles nor forgets a corner of the examples. z_b: how much livelier b is than the
-/// mean example, in deviations; β: the sum of z over what was played, in units of twenty seconds, at most ± 3. It keeps
-/// the dance as lively as its source.
+/// lately, so that it neither goes in circles nor forgets a corner of the examples. z_b: how much livelier b is than
+/// the mean example, in deviations; β: the sum of z over what was played, in units of twenty seconds, at most ± 3. It
+/// keeps the dance as lively as its source.
 class InstanceWalk {
  public:
   InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless);
