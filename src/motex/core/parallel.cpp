@@ -13,8 +13,8 @@
 namespace motex {
 
 int num_threads(int jobs) {
-  if (jobs > 0) return jobs;
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return jobs > 0 ? std::min(jobs, 4 * cores) : cores;
 }
 
 void parallel_for(int jobs, int num_tasks, const std::function<void(int)>& work) {

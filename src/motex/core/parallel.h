@@ -6,7 +6,7 @@
 
 namespace motex {
 
-/// Number of threads that `jobs` (0 = all cores) stands for.
+/// Number of threads that `jobs` (0 = all cores) stands for; never more than four a core.
 int num_threads(int jobs);
 
 /// Calls work(task) for task = 0 … num_tasks − 1 from up to num_threads(jobs) threads, in no promised order.
