@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iostream>
 #include <string>
+#include <string_view>
 
 #include "motex/core/archive.h"
 #include "motex/core/error.h"
@@ -46,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::string bytes(reinterpret_cast<const char*>(data), size);
   // The last four bytes are made the right checksum, which no mutation would find.
   if (size > 16) {
-    const auto crc = motex::archive_checksum({reinterpret_cast<const char*>(data), size - 4});
+    const std::uint32_t crc = motex::archive_checksum(std::string_view(bytes).substr(0, size - 4));
     std::memcpy(bytes.data() + size - 4, &crc, 4);
   }
   motex::try_model(bytes);
