@@ -23,6 +23,10 @@ class ExpectationMaximisation {
   /// One M-step and one E-step. Returns J after it. converged() when the segmentation did not change.
   double iterate(const JobContext& job);
   bool converged() const { return converged_; }
+  /// Fits the textons to the last segmentation, where EM was stopped before it settled.
+  void finish(const JobContext& job) {
+    if (!converged_) maximise(job);
+  }
 
   const Segmentation& segments() const { return segments_; }
   const std::vector<TextonFit>& textons() const { return fits_; }

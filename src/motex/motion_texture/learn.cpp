@@ -57,6 +57,7 @@ void run_em(ExpectationMaximisation& em, const LearnOptions& options, Index fram
     report.converged = em.converged() || gain < kSmallGain * static_cast<double>(frames);
     job.progress("learning textons", 0.3 + 0.65 * (i + 1) / options.max_iterations);
   }
+  em.finish(job);
 }
 
 /// Textons without a segment are dropped, the others numbered in order of first appearance.

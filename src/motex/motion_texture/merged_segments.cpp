@@ -47,7 +47,7 @@ class Merger {
     std::vector<std::vector<Merge>> found(groups_.size());
     parallel_for(job.jobs, pieces, [&](int g) {
       job.check_cancelled();
-      found[static_cast<std::size_t>(g)] = candidates(g, true);
+      found[static_cast<std::size_t>(g)] = candidates(g);
     });
     for (const auto& merges : found)
       for (const Merge& merge : merges) queue_.push(merge);
@@ -80,8 +80,8 @@ class Merger {
     return a.alive && b.alive && a.generation == merge.generation_a && b.generation == merge.generation_b;
   }
 
-  /// Merges of g with the groups most alike; only_after: each pair once.
-  std::vector<Merge> candidates(int g, bool only_after) const {
+  /// Merges of g that gain, with the groups most alike.
+  std::vector<Merge> candidates(int g) const {
     const Group& group = groups_[static_cast<std::size_t>(g)];
     std::vector<std::pair<double, int>> near;
     for (std::size_t h = 0; h < groups_.size(); ++h)
@@ -94,7 +94,7 @@ class Merger {
     for (const auto& [distance, h] : near) {
       const Group& other = groups_[static_cast<std::size_t>(h)];
       const double gain = evidence_(group.statistics, other.statistics) - group.evidence - other.evidence;
-      if (gain > threshold_ || only_after) merges.push_back({gain, g, h, group.generation, other.generation});
+      if (gain > threshold_) merges.push_back({gain, g, h, group.generation, other.generation});
     }
     return merges;
   }
@@ -107,7 +107,7 @@ class Merger {
     parent_[static_cast<std::size_t>(merge.b)] = merge.a;
     ++a.generation;
     describe(a);
-    for (const Merge& next : candidates(merge.a, false)) queue_.push(next);
+    for (const Merge& next : candidates(merge.a)) queue_.push(next);
   }
 
   LdsEvidence evidence_;
