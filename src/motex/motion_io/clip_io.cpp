@@ -90,7 +90,9 @@ Clip read_as(Kind kind, std::string_view bytes, const std::string& name, const R
   return read_amc_bytes({skeleton, options.asf}, {bytes, name}, options, job);
 }
 
-Clip finished(Clip clip, const ReadClipOptions& options) {
+Clip finished(Clip clip, const ReadClipOptions& options, const JobContext& job) {
+  if (options.up == UpAxis::kAuto && looks_z_up(clip))
+    job.warn(clip.name + ": the body stretches along z; if it should stand, read it with --up z");
   apply_read_options(options, clip);
   check_clip(clip);
   return clip;
@@ -111,7 +113,7 @@ const std::vector<std::string>& writable_clip_extensions() {
 Clip read_clip_bytes(std::string_view bytes, const std::string& name, const ReadClipOptions& options,
                      const JobContext& job) {
   check_options(options);
-  return finished(read_as(choose_kind(bytes, name, job), bytes, name, options, job), options);
+  return finished(read_as(choose_kind(bytes, name, job), bytes, name, options, job), options, job);
 }
 
 Clip read_clip(const fs::path& path, const ReadClipOptions& options, const JobContext& job) {
@@ -119,9 +121,9 @@ Clip read_clip(const fs::path& path, const ReadClipOptions& options, const JobCo
   const std::string bytes = read_file(path);
   const Kind kind = choose_kind(bytes, path.string(), job);
   // These two may need the files beside them.
-  if (kind == Kind::kAmc) return finished(read_amc(path, options, job), options);
-  if (kind == Kind::kGltf) return finished(read_gltf(path, options, job), options);
-  return finished(read_as(kind, bytes, path.string(), options, job), options);
+  if (kind == Kind::kAmc) return finished(read_amc(path, options, job), options, job);
+  if (kind == Kind::kGltf) return finished(read_gltf(path, options, job), options, job);
+  return finished(read_as(kind, bytes, path.string(), options, job), options, job);
 }
 
 void check_clip_extension(const fs::path& path) {

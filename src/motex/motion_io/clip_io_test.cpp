@@ -186,5 +186,15 @@ TEST(Npz, Arrays) {
   EXPECT_THROW(ints.add("i", std::vector<double>{1, 2, 3}, wrong), InvalidInput);
 }
 
+TEST(ReadClip, ABodyThatLiesAlongZGetsAHint) {
+  const std::string folder = std::string(MOTEX_TEST_DATA) + "/mocap/quickstart/";
+  const Clip standing = read_clip(folder + "salsa_cmu61_10.bvh", {}, {});
+  EXPECT_FALSE(looks_z_up(standing));
+  ReadClipOptions turn;
+  turn.up = UpAxis::kZ;
+  // Turned although it stood: now it lies along z.
+  EXPECT_TRUE(looks_z_up(read_clip(folder + "salsa_cmu61_10.bvh", turn, {})));
+}
+
 }  // namespace
 }  // namespace motex

@@ -41,4 +41,8 @@ struct ReadClipOptions {
 /// Throws InvalidInput when skip_frames leaves no frame.
 void apply_read_options(const ReadClipOptions& options, Clip& clip);
 
+/// Whether the body stretches along z much more than along y and x in most frames, as in files whose z axis is up.
+/// A hint for a warning: somebody may lie on the floor.
+bool looks_z_up(const Clip& clip);
+
 }  // namespace motex
