@@ -33,7 +33,6 @@ Coverage::Coverage(int width, int height)
     : width_(width),
       height_(height),
       first_row_(height),
-      last_row_(-1),
       area_(static_cast<std::size_t>(height) * static_cast<std::size_t>(width + 2), 0.F) {}
 
 void Coverage::add_outline(std::span<const Point> points) {

@@ -27,8 +27,9 @@ class Coverage {
   void add_edge(Point from, Point to, double sign);
   void add_span(float* row, double x_a, double x_b, double area) const;
   int width_, height_;
-  int first_row_, last_row_;  // rows touched; none when first_row_ > last_row_
-  std::vector<float> area_;   // height × (width + 2)
+  int first_row_;
+  int last_row_ = -1;        // rows touched; none when first_row_ > last_row_
+  std::vector<float> area_;  // height × (width + 2)
 };
 
 /// Outlines of a line of that width with round ends and joins.

@@ -22,7 +22,8 @@ Drawing grid(const std::vector<Drawing>& panels, int columns, const std::string&
   Drawing figure{across * (cell_width + kGap) + kGap, head + down * (cell_height + kGap), panels[0].background, {}};
   if (!title.empty()) figure.add(Text{{figure.width / 2, 30}, title, 17, kInk, Align::kCentre, true, false});
   for (int i = 0; i < count; ++i) {
-    const double x = kGap + i % across * (cell_width + kGap), y = head + i / across * (cell_height + kGap);
+    const int row = i / across, column = i % across;
+    const double x = kGap + column * (cell_width + kGap), y = head + row * (cell_height + kGap);
     append(figure, panels[static_cast<std::size_t>(i)], {x, y});
   }
   return figure;
