@@ -49,7 +49,7 @@ class SegmentSynthesis {
   Rng rng_;
   Index blend_frames_;
   std::vector<std::unique_ptr<Bridge>> bridges_;
-  FrameMatrix out_, states_, noise_rows_, basis_t_;
+  FrameMatrix out_, states_, noise_rows_;
 };
 
 }  // namespace motex
