@@ -96,13 +96,20 @@ const FrameMatrix& SegmentSynthesis::play(int instance, int next) {
 }
 
 const FrameMatrix& SegmentSynthesis::play(const Piece& piece) {
+  return play(piece, model_.corpus.middleRows(piece.first_row, 2).cast<double>(),
+              model_.corpus.middleRows(piece.last_row, 2).cast<double>());
+}
+
+const FrameMatrix& SegmentSynthesis::play(const Piece& piece, const FrameMatrix& first, const FrameMatrix& last) {
+  for (const FrameMatrix* ends : {&first, &last})
+    if (ends->rows() != 2 || ends->cols() != model_.features.size() || !ends->allFinite())
+      throw InvalidInput("SegmentSynthesis::play: end poses are 2 finite rows of " +
+                         std::to_string(model_.features.size()) + " features each");
   const Subspace& space = model_.subspace(piece.texton);
   const Index l = piece.length, d = space.basis.cols();
   const FrameMatrix source =
       paced(model_.corpus.middleRows(piece.source_row, piece.source_length).cast<double>(), piece.length);
   if (l < 4) return out_ = source;
-  const FrameMatrix first = model_.corpus.middleRows(piece.first_row, 2).cast<double>();
-  const FrameMatrix last = model_.corpus.middleRows(piece.last_row, 2).cast<double>();
   const bool replay = source_ == NoiseSource::kReplay;
   states_.resize(l, d);
   if (replay) {
@@ -122,8 +129,7 @@ const FrameMatrix& SegmentSynthesis::play(const Piece& piece) {
        out_.cols());
   const FrameMatrix left_last = last - out_.bottomRows(2), left_first = first - out_.topRows(2);
   blend(l - 2, left_last.row(0).transpose(), (left_last.row(1) - left_last.row(0)).transpose(), true);
-  if (!replay || piece.first_row != piece.source_row)
-    blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);
+  blend(1, left_first.row(1).transpose(), (left_first.row(0) - left_first.row(1)).transpose(), false);
   out_.topRows(2) = first;
   out_.bottomRows(2) = last;
   if (!out_.allFinite())

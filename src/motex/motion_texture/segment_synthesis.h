@@ -37,6 +37,9 @@ class SegmentSynthesis {
   /// The same between other poses, in another number of frames. The source is played as fast as it was at both ends,
   /// and faster or slower between them. Fewer than 4 frames are the source itself.
   const FrameMatrix& play(const Piece& piece);
+  /// The same between any poses, 2 × D weighted features each; first_row and last_row are not used. Throws InvalidInput
+  /// unless they have that size and are finite.
+  const FrameMatrix& play(const Piece& piece, const FrameMatrix& first, const FrameMatrix& last);
 
  private:
   Bridge& bridge(int texton);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "motex/core/error.h"
 #include "motex/motion_texture/jumps.h"
 #include "motex/motion_texture/learn.h"
@@ -57,6 +59,32 @@ TEST(SegmentSynthesis, WithoutNoiseAnInstanceBeforeItsOwnSuccessorIsItself) {
     const int next = model.instances[i + 1].run_idx == model.instances[i].run_idx ? a + 1 : -1;
     const FrameMatrix& y = segments.play(a, next);
     EXPECT_LT((y - rows(model, model.instances[i].row, y.rows())).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
+TEST(SegmentSynthesis, MeetsPosesThatAreNotInTheCorpus) {
+  for (const Basis basis : {Basis::kShared, Basis::kOwn}) {
+    const MotionTexture model = walking_model(basis);
+    const Instance& a = model.instances[1];
+    const Piece piece{a.texton, a.row, a.length, a.row, a.row + a.length - 2, a.length + 9};
+    FrameMatrix first = rows(model, a.row, 2), last = rows(model, a.row + a.length - 2, 2);
+    for (const NoiseSource source : {NoiseSource::kReplay, NoiseSource::kWhite}) {
+      SynthesizeOptions options;
+      options.noise_source = source;
+      const FrameMatrix by_row = SegmentSynthesis(model, options).play(piece);
+      EXPECT_EQ(SegmentSynthesis(model, options).play(piece, first, last), by_row);
+      FrameMatrix bent_first = first, bent_last = last;
+      bent_first.array() += 1.5;
+      bent_last.array() -= 2;
+      const FrameMatrix y = SegmentSynthesis(model, options).play(piece, bent_first, bent_last);
+      EXPECT_EQ(y.topRows(2), bent_first);
+      EXPECT_EQ(y.bottomRows(2), bent_last);
+      EXPECT_TRUE(y.allFinite());
+    }
+    SegmentSynthesis segments(model, {});
+    EXPECT_THROW(segments.play(piece, first.leftCols(3), last), InvalidInput);
+    first(0, 0) = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(segments.play(piece, first, last), InvalidInput);
   }
 }
 
