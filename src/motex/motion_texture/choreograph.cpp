@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "motex/core/options_check.h"
+#include "motex/motion/foot_fix.h"
 #include "motex/motion_texture/choreography_plan.h"
 #include "motex/motion_texture/jumps.h"
 
@@ -56,46 +57,66 @@ RootPlace place_at(const MotionTexture& model, Index row) {
   return place;
 }
 
-/// The poses to be met: corpus rows and output frames, start and end included.
-struct Stations {
-  std::vector<Index> rows, frames;
-  std::vector<std::string> names;
+/// A pose to be met.
+struct Station {
+  PlanPoses poses;
+  Index frame = 0;  ///< of the output
+  std::string name;
 };
 
-Stations stations_of(const MotionTexture& model, const ChoreographyRequest& request) {
+/// Start and end included.
+std::vector<Station> stations_of(const MotionTexture& model, const ChoreographyRequest& request) {
   constexpr Index kMostFrames = 1'000'000;
   if (request.num_frames < 2 || request.num_frames > kMostFrames)
     throw InvalidInput("a choreography has 2 to 1000000 frames");
-  Stations out;
-  const auto add = [&](const ClipFrame& pose, Index frame, Index offset) {
-    out.rows.push_back(pair_row(model, pose, offset));
-    out.frames.push_back(frame);
-    out.names.push_back(described(pose));
+  std::vector<Station> out;
+  const auto add = [&](const ClipFrame& pose, const std::optional<PosePair>& pair, Index frame, Index offset) {
+    if (pair) {
+      if (pair->features.rows() != 2 || pair->features.cols() != model.features.size() || !pair->features.allFinite())
+        throw InvalidInput(pair->name + ": poses are 2 finite rows of the model's features");
+      out.push_back({{pair->features, -1}, frame, pair->name});
+    } else {
+      out.push_back({poses_at(model, pair_row(model, pose, offset)), frame, described(pose)});
+    }
   };
-  add(request.start, 0, 0);
+  add(request.start, request.first_two, 0, 0);
   for (const auto& via : request.via) {
-    if (via.frame <= out.frames.back() || via.frame >= request.num_frames - 2)
+    if (via.frame <= out.back().frame || via.frame >= request.num_frames - 2)
       throw InvalidInput(described(via.pose) + ": frame " + std::to_string(via.frame) +
                          " is not after the pose before it and before the end, frame " +
                          std::to_string(request.num_frames - 2));
-    add(via.pose, via.frame, 0);
+    add(via.pose, {}, via.frame, 0);
   }
-  add(request.end, request.num_frames - 2, 1);
+  add(request.end, request.last_two, request.num_frames - 2, 1);
   return out;
 }
 
-Plan plan_stretch(const ChoreographyPlanner& planner, const Stations& stations, std::size_t k,
+Plan plan_stretch(const ChoreographyPlanner& planner, const Station& from, const Station& to,
                   const ChoreographyOptions& options, const JobContext& job) {
   PlanRequest request;
-  request.start_row = stations.rows[k];
-  request.end_row = stations.rows[k + 1];
-  request.num_frames = stations.frames[k + 1] + 2 - stations.frames[k];
+  request.start = from.poses;
+  request.end = to.poses;
+  request.num_frames = to.frame + 2 - from.frame;
   request.stretch = options.stretch;
   request.nearness = options.nearness;
   try {
     return planner.plan(request, job);
   } catch (const InvalidInput& error) {
-    throw InvalidInput(stations.names[k] + " to " + stations.names[k + 1] + ": " + error.what());
+    throw InvalidInput(from.name + " to " + to.name + ": " + error.what());
+  }
+}
+
+/// Plays a plan into the rows of `features` from the first of its stations on.
+void play_stretch(const MotionTexture& model, const Plan& plan, const Station& from, const Station& to,
+                  SegmentSynthesis& segments, FrameMatrix& features) {
+  Index frame = from.frame;
+  for (std::size_t k = 0; k < plan.segments.size(); ++k) {
+    const Piece& piece = plan.segments[k].piece;
+    const FrameMatrix first = k == 0 ? from.poses.features : poses_at(model, piece.first_row).features;
+    const FrameMatrix last =
+        k + 1 == plan.segments.size() ? to.poses.features : poses_at(model, piece.last_row).features;
+    features.middleRows(frame, piece.length) = segments.play(piece, first, last);
+    frame += piece.length - 2;
   }
 }
 
@@ -140,33 +161,34 @@ Index corpus_row(const MotionTexture& model, const ClipFrame& pose) {
                      (nearest >= 0 ? "; the nearest that was not is " + std::to_string(nearest) : ""));
 }
 
+PosePair pose_pair(const FeatureSpace& space, const Clip& clip, Index frame) {
+  if (frame < 0 || frame + 2 > clip.num_frames())
+    throw InvalidInput(clip.name + ": has no frames " + std::to_string(frame) + " and " + std::to_string(frame + 1));
+  const Index before = std::min<Index>(frame, 1);  // the step into the first frame
+  return {clip.name + "@" + std::to_string(frame), encode(space, slice(clip, frame - before, before + 2)).bottomRows(2),
+          root_place(space, clip, frame)};
+}
+
 Clip choreograph(const MotionTexture& model, const ChoreographyRequest& request, const ChoreographyOptions& options,
                  ChoreographyReport& report, const JobContext& job) {
   check_options(options);
-  const Stations stations = stations_of(model, request);
+  const std::vector<Station> stations = stations_of(model, request);
   const ChoreographyPlanner planner(model);
   report = {};
-  SynthesizeOptions synthesis;
-  synthesis.noise = options.noise;
-  synthesis.noise_source = options.noise_source;
-  synthesis.seed = options.seed;
-  SegmentSynthesis segments(model, synthesis);
+  SegmentSynthesis segments(model, options);
   FrameMatrix features(request.num_frames, model.features.size());
   std::vector<Index> pinned;
-  for (std::size_t k = 0; k + 1 < stations.rows.size(); ++k) {
-    const Plan plan = plan_stretch(planner, stations, k, options, job);
-    Index frame = stations.frames[k];
-    for (const PlannedSegment& s : plan.segments) {
-      features.middleRows(frame, s.piece.length) = segments.play(s.piece);
-      frame += s.piece.length - 2;
-    }
-    append(plan, stations.frames[k], report);
+  for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
+    const Plan plan = plan_stretch(planner, stations[k], stations[k + 1], options, job);
+    play_stretch(model, plan, stations[k], stations[k + 1], segments, features);
+    append(plan, stations[k].frame, report);
     if (k == 0) report.start_distance = plan.start_distance;
     report.end_distance = plan.end_distance;
-    job.progress("dancing", static_cast<double>(k + 1) / static_cast<double>(stations.rows.size()));
+    job.progress("dancing", static_cast<double>(k + 1) / static_cast<double>(stations.size()));
   }
-  for (const Index frame : stations.frames) pinned.insert(pinned.end(), {frame, frame + 1});
-  Clip clip = decode(model.features, features, request.place.value_or(place_at(model, stations.rows[0])));
+  for (const Station& station : stations) pinned.insert(pinned.end(), {station.frame, station.frame + 1});
+  const RootPlace start = request.first_two ? request.first_two->place : place_at(model, stations[0].poses.row);
+  Clip clip = decode(model.features, features, request.place.value_or(start));
   clip.name = "choreography";
   if (options.foot_fix && !model.feet.legs.empty()) fix_feet(clip, model.feet, {}, pinned);
   warn_when_far(model, report, job);

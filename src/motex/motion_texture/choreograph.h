@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "motex/core/job.h"
-#include "motex/core/options.h"
 #include "motex/motion/clip.h"
-#include "motex/motion_texture/synthesize.h"
+#include "motex/motion_texture/model.h"
+#include "motex/motion_texture/play_options.h"
 
 namespace motex {
 
@@ -23,41 +23,36 @@ struct ClipFrame {
 /// frame; when the frame was left out of learning, naming the nearest that was not.
 Index corpus_row(const MotionTexture& model, const ClipFrame& pose);
 
+/// Two consecutive frames that need not be in the model.
+struct PosePair {
+  std::string name;      ///< for messages
+  FrameMatrix features;  ///< 2 × D, weighted
+  RootPlace place;       ///< of the first
+};
+/// Frames `frame` and `frame` + 1 of a clip. Throws InvalidInput when it has no such frames, or is of another skeleton.
+PosePair pose_pair(const FeatureSpace& space, const Clip& clip, Index frame);
+
 struct ChoreographyRequest {
   struct Via {
     ClipFrame pose;
     Index frame = 0;  ///< output frames `frame` and `frame` + 1 are that frame and the next of its clip
   };
-  ClipFrame start;                 ///< i: output frames 0 and 1 are i and i + 1
-  ClipFrame end;                   ///< j: the last two output frames are j − 1 and j
-  Index num_frames = 0;            ///< N
-  std::vector<Via> via;            ///< by rising output frame
-  std::optional<RootPlace> place;  ///< of output frame 0; where the start frame stands in its clip when not given
+  ClipFrame start;                              ///< i: output frames 0 and 1 are i and i + 1
+  ClipFrame end;                                ///< j: the last two output frames are j − 1 and j
+  std::optional<PosePair> first_two, last_two;  ///< instead of `start`, of `end`
+  Index num_frames = 0;                         ///< N
+  std::vector<Via> via;                         ///< by rising output frame
+  std::optional<RootPlace> place;               ///< of output frame 0; where the start frame stands when not given
 };
 
-struct ChoreographyOptions {
-  double noise = 0;
-  NoiseSource noise_source = NoiseSource::kReplay;
-  double nearness = 1;
+struct ChoreographyOptions : PlayOptions {
   double stretch = 0.15;
-  bool foot_fix = true;
-  std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"noise", "",
-                "strength of fresh noise against the texton's own (auto: 0.2 on top of replayed residuals, 1 for "
-                "white noise)"},
-          self.noise, Range{1e-9, 3, true});
-    visit(Field{"noise_source", "",
-                "replay: the residuals of the example, plus fresh noise; white: noise alone, as in the paper"},
-          self.noise_source, Choices{{"replay", "white"}});
-    visit(Field{"nearness", "", "how much the poses of neighbours may differ, relative to the usual"}, self.nearness,
-          Range{0.01, 100});
+    PlayOptions::visit_fields(self, visit);
     visit(Field{"stretch", "", "how much longer or shorter than itself an example may be played"}, self.stretch,
           Range{0, 1});
-    visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
-    visit(Field{"seed", "", "random seed"}, self.seed, Range{0, 1.8e19});
   }
 };
 

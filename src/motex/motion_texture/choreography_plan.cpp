@@ -24,7 +24,7 @@ std::size_t at(int instance) { return static_cast<std::size_t>(instance); }
 /// Rows of the corpus played in first … last frames.
 struct Source {
   Index row = 0, length = 0;
-  Index shortest = 0, longest = 0;
+  Index shortest = 1, longest = 0;
 };
 
 Source stretched(Index row, Index length, double stretch, Index least) {
@@ -40,6 +40,10 @@ int instance_at(const MotionTexture& model, Index row) {
   const auto after = std::upper_bound(model.instances.begin(), model.instances.end(), row,
                                       [](Index r, const Instance& instance) { return r < instance.row; });
   return static_cast<int>(after - model.instances.begin()) - 1;
+}
+
+PlanPoses poses_at(const MotionTexture& model, Index row) {
+  return {model.corpus.middleRows(row, 2).cast<double>(), row};
 }
 
 /// Tables over (node, frames so far). Nodes: the instances, and one more for the rest of the one that holds the start.
@@ -71,7 +75,10 @@ struct ChoreographyPlanner::Search {
     return -edge.log_prob + edge.distance / tau_ + (instance_of(edge.from) == to ? kRepeatCost : 0);
   }
   double pace_cost(const Source& source, Index length) const;
-  double bend_distance(Index row, int node) const { return key_pose_distance(model_.corpus, row, source(node).row); }
+  double bend_distance(int node) const { return distance_to(wanted_.start, source(node).row); }
+  double distance_to(const PlanPoses& poses, Index row) const {
+    return std::sqrt(0.5 * (poses.features - model_.corpus.middleRows(row, 2).cast<double>()).squaredNorm());
+  }
   double end_distance(int node) const;
   const Source& source(int node) const { return sources_[at(node)]; }
   int instance_of(int node) const { return node == rest_ ? rest_instance_ : node; }
@@ -115,24 +122,29 @@ ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const Pl
 
 /// A rest too short to play goes on into the instance after it.
 void ChoreographyPlanner::Search::prepare_rest() {
-  rest_instance_ = instance_at(model_, wanted_.start_row);
+  if (wanted_.start.row < 0) {
+    sources_.push_back({});
+    return;
+  }
+  rest_instance_ = instance_at(model_, wanted_.start.row);
   const auto end_of = [&](int i) { return hand_over_row(model_, model_.instances[at(i)]) + 2; };
   const auto follows = [&](int i) {
     return i + 1 < rest_ && model_.instances[at(i + 1)].run_idx == model_.instances[at(i)].run_idx;
   };
-  if (end_of(rest_instance_) - wanted_.start_row < 4 && follows(rest_instance_)) ++rest_instance_;
-  const Index length = end_of(rest_instance_) - wanted_.start_row;
+  if (end_of(rest_instance_) - wanted_.start.row < 4 && follows(rest_instance_)) ++rest_instance_;
+  const Index length = end_of(rest_instance_) - wanted_.start.row;
   has_rest_ = length >= 4;
   rest_can_bend_ = length >= least_bent_;
-  sources_.push_back(stretched(wanted_.start_row, length, wanted_.stretch, rest_can_bend_ ? least_bent_ : Index{0}));
+  sources_.push_back(stretched(wanted_.start.row, length, wanted_.stretch, rest_can_bend_ ? least_bent_ : Index{0}));
 }
 
 void ChoreographyPlanner::Search::prepare_exit() {
-  exit_instance_ = instance_at(model_, wanted_.end_row);
+  if (wanted_.end.row < 0) return;
+  exit_instance_ = instance_at(model_, wanted_.end.row);
   const Index row = model_.instances[at(exit_instance_)].row;
-  exit_ = stretched(row, wanted_.end_row + 2 - row, wanted_.stretch, 0);
-  rest_is_exit_ = wanted_.end_row >= wanted_.start_row &&
-                  (rest_instance_ == exit_instance_ || instance_at(model_, wanted_.start_row) == exit_instance_);
+  exit_ = stretched(row, wanted_.end.row + 2 - row, wanted_.stretch, 0);
+  rest_is_exit_ = wanted_.end.row >= wanted_.start.row &&
+                  (rest_instance_ == exit_instance_ || instance_at(model_, wanted_.start.row) == exit_instance_);
 }
 
 double ChoreographyPlanner::Search::pace_cost(const Source& source, Index length) const {
@@ -143,7 +155,7 @@ double ChoreographyPlanner::Search::pace_cost(const Source& source, Index length
 }
 
 double ChoreographyPlanner::Search::end_distance(int node) const {
-  return key_pose_distance(model_.corpus, source(node).row + source(node).length - 2, wanted_.end_row);
+  return distance_to(wanted_.end, source(node).row + source(node).length - 2);
 }
 
 double ChoreographyPlanner::Search::best_length(int node, Index frames, Index& length) const {
@@ -165,9 +177,10 @@ double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edg
     if (cost < best) best = cost, edge = e;
   }
   const double rest_cost = done(rest_, frames);
+  if (rest_cost == kNever) return best;
   const bool follows =
       node == rest_instance_ + 1 && model_.instances[at(node)].run_idx == model_.instances[at(rest_instance_)].run_idx;
-  if (rest_cost == kNever || (!rest_can_bend_ && !follows)) return best;
+  if (!rest_can_bend_ && !follows) return best;
   const double log_prob =
       model_.transitions.log_prob(model_.instances[at(rest_instance_)].texton, model_.instances[at(node)].texton);
   if (!std::isfinite(log_prob)) return best;
@@ -180,7 +193,7 @@ double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edg
 void ChoreographyPlanner::Search::fill(const JobContext& job) {
   begun_.assign(width_ * sources_.size(), kNever);
   done_.assign(width_ * sources_.size(), kNever);
-  for (int b = 0; b < rest_; ++b) begun(b, 0) = kBend * bend_distance(wanted_.start_row, b) / tau_ + kJumpCost;
+  for (int b = 0; b < rest_; ++b) begun(b, 0) = kBend * bend_distance(b) / tau_ + kJumpCost;
   if (has_rest_) begun(rest_, 0) = 0;
   for (Index f = 1; f <= horizon_; ++f) {
     job.check_cancelled();
@@ -202,7 +215,7 @@ ChoreographyPlanner::Search::Finish ChoreographyPlanner::Search::finish(Index fr
       consider(begun(exit_instance_, before) + pace_cost(exit_, l), exit_instance_, true, l);
   }
   if (rest_is_exit_) {
-    const Source way = stretched(wanted_.start_row, wanted_.end_row + 2 - wanted_.start_row, wanted_.stretch, 0);
+    const Source way = stretched(wanted_.start.row, wanted_.end.row + 2 - wanted_.start.row, wanted_.stretch, 0);
     const Index l = frames + 2;
     if (l >= way.shortest && l <= way.longest) consider(pace_cost(way, l), rest_, true, l);
   }
@@ -217,23 +230,23 @@ Plan ChoreographyPlanner::Search::trace(Index frames) const {
   Plan plan;
   plan.cost = end.cost;
   int node = end.node;
-  Index row_after = wanted_.end_row, now = frames;
+  Index row_after = wanted_.end.row, now = frames;
   double distance_after = 0;
   const auto add = [&](int n, Index source_row, Index source_length, Index length, bool is_first) {
     PlannedSegment s;
     s.instance = instance_of(n);
     s.piece = {model_.instances[at(s.instance)].texton,   source_row, source_length,
-               is_first ? wanted_.start_row : source_row, row_after,  length};
-    s.first_distance = is_first ? key_pose_distance(model_.corpus, wanted_.start_row, source_row) : 0;
+               is_first ? wanted_.start.row : source_row, row_after,  length};
+    s.first_distance = is_first ? distance_to(wanted_.start, source_row) : 0;
     s.last_distance = distance_after;
     plan.segments.insert(plan.segments.begin(), s);
     row_after = source_row;
     now -= length - 2;
   };
   if (end.is_exit) {
-    const Index row = node == rest_ ? wanted_.start_row : exit_.row;
+    const Index row = node == rest_ ? wanted_.start.row : exit_.row;
     const bool is_first = now == end.length - 2;
-    if (end.length > 2 || is_first) add(node, row, wanted_.end_row + 2 - row, end.length, is_first);
+    if (end.length > 2 || is_first) add(node, row, wanted_.end.row + 2 - row, end.length, is_first);
     row_after = row;
   } else {
     plan.end_distance = distance_after = end_distance(node);

@@ -10,10 +10,17 @@
 
 namespace motex {
 
-/// What leads from one pair of consecutive corpus rows to another in a given number of frames.
+/// Two consecutive frames.
+struct PlanPoses {
+  FrameMatrix features;  ///< 2 × D
+  Index row = -1;        ///< their first row in the corpus, or −1
+};
+PlanPoses poses_at(const MotionTexture& model, Index row);
+
+/// What leads from one pair of poses to another in a given number of frames.
 struct PlanRequest {
-  Index start_row = 0;   ///< output frames 0 and 1 are this row and the next
-  Index end_row = 0;     ///< the last two output frames are this row and the next
+  PlanPoses start;       ///< output frames 0 and 1
+  PlanPoses end;         ///< the last two output frames
   Index num_frames = 2;  ///< N, both pairs included
   double stretch = 0.15;
   double nearness = 1;
@@ -22,7 +29,7 @@ struct PlanRequest {
 /// An example and how it is played: between which poses, in how many frames.
 struct PlannedSegment {
   int instance = 0;
-  Piece piece;
+  Piece piece;                ///< first_row of the first segment and last_row of the last are those of the poses
   double first_distance = 0;  ///< cm from the example's own first poses to those that it starts from
   double last_distance = 0;   ///< cm from the example's own last poses to those that it leads to
 };

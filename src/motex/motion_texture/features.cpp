@@ -164,6 +164,20 @@ void travelling_pose(const FeatureSpace& space, const Above& above, const Clip& 
   q = above.rotation * clip.rotation(t, space.travelling_joint);
 }
 
+double mean_height(std::span<const Clip> clips, const FeatureSpace& space) {
+  const Above above = above_travelling_joint(space);
+  Vector3 position;
+  Quat q;
+  double sum = 0;
+  Index count = 0;
+  for (const Clip& clip : clips)
+    for (Index t = 0; t < clip.num_frames(); ++t, ++count) {
+      travelling_pose(space, above, clip, t, position, q);
+      sum += position.y();
+    }
+  return sum / static_cast<double>(count);
+}
+
 }  // namespace
 
 FeatureSpace make_feature_space(std::span<const Clip> clips, const JobContext& job) {
@@ -200,6 +214,7 @@ FeatureSpace make_feature_space(std::span<const Clip> clips, const JobContext& j
   }
   if (!ancestors.empty()) job.warn("rotations of " + ancestors + " above the travelling joint are held at their mean");
   find_weights(space);
+  space.reference_height = mean_height(clips, space);
   return space;
 }
 
@@ -223,8 +238,8 @@ FrameMatrix encode(const FeatureSpace& space, const Clip& clip, const JobContext
     if (!heading_of(q, heading)) upside_down = true;
     const Vector3 tilt = log_map(heading_rotation(heading).conjugate() * q);
     const Vector3 step = heading_rotation(-heading_before) * (position - before);
-    y.row(t).head<kRootChannels>() << step.x(), step.z(), position.y(), wrap_angle(heading - heading_before), tilt.x(),
-        tilt.z();
+    y.row(t).head<kRootChannels>() << step.x(), step.z(), position.y() - space.reference_height,
+        wrap_angle(heading - heading_before), tilt.x(), tilt.z();
     before = position;
     heading_before = heading;
     for (std::size_t i = 0; i < space.joints.size(); ++i) {
@@ -265,7 +280,7 @@ void decode_frame(const FeatureSpace& space, const double* features, bool first,
     place.heading += features[3] / w[3];
   }
   const Quat world = heading_rotation(place.heading) * exp_map(Vector3(features[4] / w[4], 0, features[5] / w[5]));
-  const Vector3 position(place.x, features[2] / w[2], place.z);
+  const Vector3 position(place.x, space.reference_height + features[2] / w[2], place.z);
   const int root = space.travelling_joint;
   if (space.skeleton.joints[static_cast<std::size_t>(root)].parent_idx < 0) {
     out.set_translation(frame, root, position);

@@ -16,7 +16,7 @@ constexpr double kLeastFrameTimeSecs = 1e-4, kMostFrameTimeSecs = 1e4;
 /// Channels of a frame, each multiplied by its weight, all then in centimetres of body movement:
 ///
 ///   0, 1   v_x, v_z   horizontal step from the previous frame, in its heading frame
-///   2      height     of the travelling joint, absolute
+///   2      height     of the travelling joint above reference_height
 ///   3      Δψ         turn of the heading since the previous frame
 ///   4, 5   t_x, t_z   tilt: q = R_y(ψ) · exp(t_x, 0, t_z), ψ = 2 atan2(q_y, q_w)
 ///   6 …    3 a joint  log(q_ref⁻¹ q), continued along the clip up to 270°
@@ -26,6 +26,7 @@ struct FeatureSpace {
   Skeleton skeleton;
   double frame_time_secs = 1.0 / 60;
   double cm_per_unit = 1;
+  double reference_height = 0;  ///< units: heights keep their digits as floats only if they are small
   int travelling_joint = 0;
   std::vector<int> joints;  ///< joints of channels 6 …, in order
   FrameMatrix references;  ///< joints of the skeleton × 4: q_ref, w x y z; the held rotation of those without channels

@@ -52,7 +52,7 @@ FrameMatrix paced(FrameMatrix source, Index length) {
 
 }  // namespace
 
-SegmentSynthesis::SegmentSynthesis(const MotionTexture& model, const SynthesizeOptions& options)
+SegmentSynthesis::SegmentSynthesis(const MotionTexture& model, const PlayOptions& options)
     : model_(model),
       source_(options.noise_source),
       noise_(options.noise > 0                              ? options.noise

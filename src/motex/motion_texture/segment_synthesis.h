@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "motex/lds/bridge.h"
-#include "motex/motion_texture/synthesize.h"
+#include "motex/motion_texture/model.h"
+#include "motex/motion_texture/play_options.h"
 
 namespace motex {
 
@@ -28,7 +29,7 @@ struct Piece {
 /// synthesis of white noise, as in the paper; o at both ends.
 class SegmentSynthesis {
  public:
-  SegmentSynthesis(const MotionTexture& model, const SynthesizeOptions& options);
+  SegmentSynthesis(const MotionTexture& model, const PlayOptions& options);
 
   /// Frames of `instance` up to and with the key poses of `next` (−1: up to its own last frames): length × D.
   /// The two first and the two last rows are key poses exactly.

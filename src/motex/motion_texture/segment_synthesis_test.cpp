@@ -31,7 +31,7 @@ TEST(SegmentSynthesis, MeetsKeyPosesExactly) {
     const MotionTexture model = walking_model(basis);
     const int n = static_cast<int>(model.instances.size());
     for (const NoiseSource source : {NoiseSource::kReplay, NoiseSource::kWhite}) {
-      SynthesizeOptions options;
+      PlayOptions options;
       options.noise_source = source;
       SegmentSynthesis segments(model, options);
       for (int a = 0; a < n; ++a) {
@@ -51,7 +51,7 @@ TEST(SegmentSynthesis, MeetsKeyPosesExactly) {
 
 TEST(SegmentSynthesis, WithoutNoiseAnInstanceBeforeItsOwnSuccessorIsItself) {
   const MotionTexture model = walking_model(Basis::kShared);
-  SynthesizeOptions options;
+  PlayOptions options;
   options.noise = 1e-9;
   SegmentSynthesis segments(model, options);
   for (int a = 0; a + 1 < static_cast<int>(model.instances.size()); ++a) {
@@ -69,7 +69,7 @@ TEST(SegmentSynthesis, MeetsPosesThatAreNotInTheCorpus) {
     const Piece piece{a.texton, a.row, a.length, a.row, a.row + a.length - 2, a.length + 9};
     FrameMatrix first = rows(model, a.row, 2), last = rows(model, a.row + a.length - 2, 2);
     for (const NoiseSource source : {NoiseSource::kReplay, NoiseSource::kWhite}) {
-      SynthesizeOptions options;
+      PlayOptions options;
       options.noise_source = source;
       const FrameMatrix by_row = SegmentSynthesis(model, options).play(piece);
       EXPECT_EQ(SegmentSynthesis(model, options).play(piece, first, last), by_row);
@@ -105,7 +105,7 @@ TEST(SegmentSynthesis, MoreNoiseStraysFarther) {
   const MotionTexture model = walking_model(Basis::kShared);
   double before = 0;
   for (const double noise : {1e-6, 0.2, 1.0, 3.0}) {
-    SynthesizeOptions options;
+    PlayOptions options;
     options.noise = noise;
     SegmentSynthesis segments(model, options);
     const FrameMatrix& y = segments.play(0, 1);
@@ -120,7 +120,7 @@ TEST(SegmentSynthesis, SystemsThatGrowGiveFinitePathsOrAClearError) {
     MotionTexture model = walking_model(Basis::kShared);
     for (Texton& texton : model.textons) texton.dynamics.transition *= factor;
     for (const NoiseSource source : {NoiseSource::kReplay, NoiseSource::kWhite}) {
-      SynthesizeOptions options;
+      PlayOptions options;
       options.noise_source = source;
       SegmentSynthesis segments(model, options);
       try {

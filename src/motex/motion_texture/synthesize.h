@@ -6,40 +6,24 @@
 #include <vector>
 
 #include "motex/core/job.h"
-#include "motex/core/options.h"
 #include "motex/motion/clip.h"
 #include "motex/motion/foot_fix.h"
 #include "motex/motion_texture/model.h"
+#include "motex/motion_texture/play_options.h"
 
 namespace motex {
 
 enum class KeyPoses { kNearest, kRandom };
-enum class NoiseSource { kReplay, kWhite };
 
-struct SynthesizeOptions {
-  double noise = 0;
-  NoiseSource noise_source = NoiseSource::kReplay;
+struct SynthesizeOptions : PlayOptions {
   KeyPoses key_poses = KeyPoses::kNearest;
-  double nearness = 1;
-  bool foot_fix = true;
-  std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"noise", "",
-                "strength of fresh noise against the texton's own (auto: 0.2 on top of replayed residuals, 1 for "
-                "white noise and unconstrained textons)"},
-          self.noise, Range{1e-9, 3, true});
-    visit(Field{"noise_source", "",
-                "replay: the residuals of the example, plus fresh noise; white: noise alone, as in the paper"},
-          self.noise_source, Choices{{"replay", "white"}});
+    PlayOptions::visit_fields(self, visit);
     visit(Field{"key_poses", "",
                 "next example by nearness of its first poses to the present ones, or at random (the paper)"},
           self.key_poses, Choices{{"nearest", "random"}});
-    visit(Field{"nearness", "", "how far the next first poses may lie from the present ones, relative to the usual"},
-          self.nearness, Range{0.01, 100});
-    visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
-    visit(Field{"seed", "", "random seed"}, self.seed, Range{0, 1.8e19});
   }
 };
 

@@ -9,27 +9,13 @@
 #include <utility>
 
 #include "motex/core/error.h"
-#include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/synthetic.h"
 
 namespace motex {
 namespace {
 
-const std::vector<Clip>& clips() {
-  static const std::vector<Clip> some = walking_clips(4, 500);
-  return some;
-}
-
-const MotionTexture& model() {
-  static const MotionTexture learned = [] {
-    LearnOptions options;
-    options.state_size = 8;
-    options.init = Init::kGreedy;
-    LearnReport report;
-    return learn_motion_texture(clips(), options, report);
-  }();
-  return learned;
-}
+const std::vector<Clip>& clips() { return sample_clips(); }
+const MotionTexture& model() { return sample_model(); }
 
 Clip dance(Index frames, const SynthesizeOptions& options = {}, const std::vector<int>& path = {}) {
   SynthesizeReport report;

@@ -9,6 +9,7 @@
 #include "motex/core/rng.h"
 #include "motex/lds/synthetic.h"
 #include "motex/motion/stick_figure.h"
+#include "motex/motion_texture/learn.h"
 
 namespace motex {
 namespace {
@@ -102,6 +103,22 @@ std::vector<Clip> walking_clips(int count, Index num_frames) {
     clips.back().name = "walk_" + std::to_string(i) + ".bvh";
   }
   return clips;
+}
+
+const std::vector<Clip>& sample_clips() {
+  static const std::vector<Clip> clips = walking_clips(4, 500);
+  return clips;
+}
+
+const MotionTexture& sample_model() {
+  static const MotionTexture model = [] {
+    LearnOptions options;
+    options.state_size = 8;
+    options.init = Init::kGreedy;
+    LearnReport report;
+    return learn_motion_texture(sample_clips(), options, report);
+  }();
+  return model;
 }
 
 }  // namespace motex

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "motex/motion_texture/corpus.h"
+#include "motex/motion_texture/model.h"
 
 /// Corpora and models with known truth, for tests and benchmarks.
 namespace motex {
@@ -35,5 +36,9 @@ double label_agreement(const Segmentation& found, const Segmentation& planted, I
 
 /// Clips of a walking stick figure: the speed and the turning change from clip to clip.
 std::vector<Clip> walking_clips(int count, Index num_frames);
+
+/// Four of them, walk_0.bvh … walk_3.bvh, of 500 frames, and what was learned from them; made once.
+const std::vector<Clip>& sample_clips();
+const MotionTexture& sample_model();
 
 }  // namespace motex

@@ -10,12 +10,14 @@
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
+#include "motex/motion_texture/model_edits.h"
+#include "motex/project/model_chunks.h"
 
 namespace motex {
 namespace {
 
 constexpr char kKind[] = "motion_texture";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kNewestVersion = 2;
 constexpr Index kMostStates = 100;
 constexpr double kMostContactSecs = 10;  // the foot pass keeps so many frames in memory
 
@@ -346,7 +348,9 @@ TransitionMatrix read_transitions(const ArchiveReader& in, int num_textons) {
 }  // namespace
 
 std::string write_model_bytes(const MotionTexture& model) {
-  ArchiveWriter out(kKind, kVersion);
+  if (model.edits_applied && !model.edits.empty())
+    throw InvalidInput("files hold models as they were learned; this one has its edits applied");
+  ArchiveWriter out(kKind, model_version(model));
   std::ostringstream options;
   options.precision(17);
   LearnOptions::visit_fields(model.options, OptionWriter{options});
@@ -364,6 +368,7 @@ std::string write_model_bytes(const MotionTexture& model) {
   write_subspace(out, "global_subspace", model.global_subspace);
   out.add("global_statistics", FrameMatrix(model.global_statistics.moments));
   write_feet(out, model.feet);
+  write_chunks(out, model);
   return out.bytes();
 }
 
@@ -372,7 +377,7 @@ void save_model(const std::filesystem::path& path, const MotionTexture& model) {
 }
 
 MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
-  const ArchiveReader in(std::move(bytes), name, kKind, kVersion);
+  const ArchiveReader in(std::move(bytes), name, kKind, kNewestVersion);
   MotionTexture model;
   const std::string options = in.text("options");
   LearnOptions::visit_fields(model.options, OptionReader{options, in});
@@ -394,11 +399,21 @@ MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
   model.global_subspace = read_subspace(in, "global_subspace", dims);
   model.global_statistics = read_statistics(in, "global_statistics", model.global_subspace.basis.cols());
   model.feet = read_feet(in, model.features.skeleton.num_joints());
+  read_chunks(in, model);
   return model;
 }
 
-MotionTexture load_model(const std::filesystem::path& path) {
+MotionTexture load_learned_model(const std::filesystem::path& path) {
   return read_model_bytes(read_file(path), path.filename().string());
+}
+
+MotionTexture load_model(const std::filesystem::path& path) {
+  MotionTexture learned = load_learned_model(path);
+  try {
+    return apply_edits(std::move(learned));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path.filename().string() + ": its edits cannot be applied: " + error.what());
+  }
 }
 
 }  // namespace motex
