@@ -42,6 +42,25 @@ struct Texton {
   Lds dynamics;              ///< fitted with the learner's prior
   LdsStatistics statistics;  ///< of its own frames, so that other priors can be tried
   std::vector<int> instances;
+  std::string name = {};  ///< given by a person; empty: none
+  bool is_dropped = false;
+  int merged_into = -1;  ///< the texton that took its instances
+
+  /// Dropped and merged textons keep their number, but have no instance.
+  bool is_playable() const { return !instances.empty(); }
+};
+
+/// A person's change to the distribution of a learned model (model_edits.h). Textons go by their numbers, which stay.
+struct ModelEdit {
+  enum class Kind { kName, kDrop, kKeep, kMerge, kWeight };
+  Kind kind = Kind::kName;
+  /// kName: the texton. kDrop, kKeep: those. kMerge: the first takes the instances of the others. kWeight: from (−1:
+  /// any texton), to.
+  std::vector<int> textons = {};
+  double factor = 1;      ///< kWeight: of the transition's count; 0 forbids it
+  std::string name = {};  ///< kName; empty takes the name away
+
+  bool operator==(const ModelEdit&) const = default;
 };
 
 /// The learned model: read-only for synthesis, playback and the studio.
@@ -60,6 +79,9 @@ struct MotionTexture {
   LdsStatistics global_statistics;  ///< its moments: also the prior of every texton with a shared basis
   FootModel feet;
   LearnOptions options;
+  std::vector<ModelEdit> edits;      ///< in the order in which they were made
+  bool edits_applied = false;        ///< false: all else is as it was learned, which is what files hold
+  std::vector<double> visit_ratios;  ///< a texton: how much oftener than as learned the edits play it; empty: all 1
 
   const Subspace& subspace(int texton) const {
     return subspaces[subspaces.size() == 1 ? 0 : static_cast<std::size_t>(texton)];

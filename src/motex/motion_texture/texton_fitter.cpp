@@ -14,12 +14,13 @@ constexpr double kSharedPrior = 300, kOwnPrior = 30;
 
 }  // namespace
 
+double prior_frames_of(const LearnOptions& options) {
+  if (options.prior > 0) return options.prior;
+  return options.basis == Basis::kShared ? kSharedPrior : kOwnPrior;
+}
+
 TextonFitter::TextonFitter(const Corpus& corpus, const LearnOptions& options)
-    : corpus_(corpus),
-      options_(options),
-      prior_frames_(options.prior > 0 ? options.prior
-                    : is_shared()     ? kSharedPrior
-                                      : kOwnPrior) {
+    : corpus_(corpus), options_(options), prior_frames_(prior_frames_of(options)) {
   const Index own_size = options.state_size > 0 ? options.state_size : 15;
   shared_ = principal_subspace(corpus.features, is_shared() ? options.state_size : own_size, 0.995, 2, 30);
   states_ = project(shared_, corpus.features);

@@ -17,6 +17,9 @@ struct TextonFit {
   double log_prior = 0;
 };
 
+/// Weight of the prior in frames: as asked for, or what each kind of basis needs.
+double prior_frames_of(const LearnOptions& options);
+
 /// M-step for one texton: subspace, then maximum a posteriori dynamics in it [MT02 appendix B].
 /// The prior is the whole corpus, seen in the texton's subspace.
 class TextonFitter {

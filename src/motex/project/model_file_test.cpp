@@ -249,7 +249,7 @@ TEST(ModelFile, ForeignAndNewerFiles) {
   std::string bytes = write_model_bytes(small_model());
   EXPECT_THROW(read_model_bytes("", "empty"), UnsupportedFile);
   EXPECT_THROW(read_model_bytes("HIERARCHY\nROOT Hips\n", "dance.bvh"), UnsupportedFile);
-  bytes[8] = 2;
+  bytes[8] = 3;
   EXPECT_THROW(read_model_bytes(sealed(bytes), "newer"), UnsupportedFile);
 }
 
