@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motex/motion/clip.h"
+#include "motex/motion/markers.h"
 #include "motex/project/pose_pictures.h"
 #include "session.h"
 
@@ -25,5 +26,11 @@ struct ClipPicture {
 
 /// Writes the clip as the extension says.
 void write_clip_output(const std::string& path, const Clip& clip, const ClipPicture& picture, Session& session);
+
+/// The formats of markers and what they can be shown as.
+std::vector<std::string> marker_output_extensions();
+/// Writes the markers as the extension says.
+void write_marker_output(const std::string& path, const MarkerSet& markers, const ClipPicture& picture,
+                         Session& session);
 
 }  // namespace motex::cli

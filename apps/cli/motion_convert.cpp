@@ -3,6 +3,7 @@
 #include "clip_output.h"
 #include "commands.h"
 #include "motex/motion_io/clip_io.h"
+#include "motex/motion_io/markers_io.h"
 #include "output_file.h"
 #include "text_table.h"
 
@@ -14,13 +15,14 @@ struct Convert {
   ReadClipOptions read;
 
   void declare(Arguments& arguments) {
-    arguments.positional("CLIP", "clip to read: .bvh, .glb, .gltf, .amc", clip_path);
-    arguments.value("-o,--output", "OUT", "clip to write: .bvh, .glb, .csv, .npz", output).required = true;
+    arguments.positional("CLIP", "clip to read: .bvh, .glb, .gltf, .amc, or markers: .c3d, .trc", clip_path);
+    arguments.value("-o,--output", "OUT", "clip to write: .bvh, .glb, .csv, .npz; markers: .trc, .c3d, .csv, .npz", output).required = true;
     arguments.section("Reading the clip");
     arguments.options(read);
   }
 
   void run(Session& session) {
+    if (holds_markers(std::filesystem::path(clip_path))) return convert_markers(session);
     check_output(output, clip_output_extensions(), session);
     const Clip clip = read_clip(clip_path, read, session.job(0, 0.5));
     if (!session.flags.dry_run) write_clip_output(output, clip, {}, session);
@@ -35,6 +37,24 @@ struct Convert {
     object["output"] = output;
     session.result(object, "");
   }
+
+ private:
+  void convert_markers(Session& session) const {
+    check_output(output, marker_output_extensions(), session);
+    const MarkerSet markers = read_markers(clip_path, read, session.job(0, 0.5));
+    if (!session.flags.dry_run) write_marker_output(output, markers, {}, session);
+    session.say((session.flags.dry_run ? "would write " : "wrote ") + output + ": " +
+                std::to_string(markers.num_frames()) + " frames at " + fixed(markers.frame_rate(), 2) + " Hz, " +
+                std::to_string(markers.num_markers()) + " markers");
+    Value object;
+    object["frames"] = std::int64_t{markers.num_frames()};
+    object["frame_rate"] = markers.frame_rate();
+    object["markers"] = markers.num_markers();
+    object["missing_share"] = missing_share(markers);
+    object["metres_per_unit"] = markers.metres_per_unit > 0 ? Value(markers.metres_per_unit) : Value();
+    object["output"] = output;
+    session.result(object, "");
+  }
 };
 
 }  // namespace
@@ -42,6 +62,7 @@ struct Convert {
 Command motion_convert() {
   return make_command<Convert>({"motion convert", "any clip format that is read to any that is written", "",
                                 "motex motion convert walk.bvh -o walk.glb\n"
+                                "motex motion convert take3.c3d -o take3.trc\n"
                                 "motex motion convert 07_01.amc -o walk.bvh --asf 07.asf --resample 30\n"
                                 "motex motion convert odd.bvh -o right.bvh --fps 120 --up z --unit inch"});
 }

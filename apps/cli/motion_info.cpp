@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "clip_info.h"
 #include "commands.h"
 #include "motex/project/model_file.h"
 #include "options_value.h"
@@ -87,14 +88,16 @@ Index max_state_size(const MotionTexture& model) {
 
 struct Info {
   std::string model_path;
-  bool list_textons = false;
+  bool list_textons = false, list_parts = false;
 
   void declare(Arguments& arguments) {
-    arguments.positional("MODEL", "made by motex motion learn", model_path);
+    arguments.positional("MODEL", "made by motex motion learn; or a clip, or markers (.c3d, .trc)", model_path);
     arguments.toggle("--textons", "a table of all textons too", list_textons);
+    arguments.toggle("--list", "of a clip or markers: a line a joint or marker", list_parts);
   }
 
   void run(Session& session) {
+    if (is_motion_file(model_path)) return report_motion_file(model_path, list_parts, session);
     const MotionTexture model = load_model(model_path);
     const auto summaries = summarise(model);
     session.result(value(model, summaries), text(model, summaries));
@@ -166,10 +169,11 @@ struct Info {
 }  // namespace
 
 Command motion_info() {
-  return make_command<Info>({"motion info", "what a model holds", "",
+  return make_command<Info>({"motion info", "what a model, a clip or a file of markers holds", "",
                              "motex motion info dance.motex\n"
                              "motex motion info dance.motex --textons\n"
-                             "motex motion info dance.motex --json"});
+                             "motex motion info dance.motex --json\n"
+                             "motex motion info take3.c3d --list"});
 }
 
 }  // namespace motex::cli

@@ -68,7 +68,7 @@ class BadModels(CommandTest):
             self.fail_with(2, "motion", "synthesize", model, "-o", out, "--secs", 1, saying=r"dance\.motex")
 
     def test_clip_instead_of_model(self):
-        self.fail_with(2, "motion", "info", CLIPS[0], saying="salsa")
+        self.fail_with(2, "motion", "path", CLIPS[0], "--from", 0, "--to", 1, saying="salsa")
 
     def test_path_through_a_texton_that_does_not_exist(self):
         out = self.folder / "x.bvh"

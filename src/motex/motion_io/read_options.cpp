@@ -46,6 +46,8 @@ void turn_z_up_to_y_up(Clip& clip) {
 
 }  // namespace
 
+double metres_per_unit(LengthUnit unit) { return kMetresPerUnit[static_cast<std::size_t>(unit)]; }
+
 void apply_read_options(const ReadClipOptions& options, Clip& clip) {
   check_options(options);
   if (options.skip_frames > 0) {
@@ -56,7 +58,7 @@ void apply_read_options(const ReadClipOptions& options, Clip& clip) {
   }
   if (options.up == UpAxis::kZ) turn_z_up_to_y_up(clip);
   if (options.unit != LengthUnit::kAuto)
-    clip.skeleton.metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(options.unit)];
+    clip.skeleton.metres_per_unit = metres_per_unit(options.unit);
   if (options.resample > 0 && std::abs(options.resample * clip.frame_time_secs - 1) > 1e-9)
     clip = resample(clip, 1 / options.resample);
 }

@@ -36,6 +36,9 @@ struct ReadClipOptions {
   }
 };
 
+/// Metres of one unit; 0 for kAuto.
+double metres_per_unit(LengthUnit unit);
+
 /// Applies skip_frames, up, unit and resample to a clip as a reader of one format returned it (readers themselves apply
 /// fps only). up = z turns the whole clip −90° about x, rest pose and channel names included, so that z becomes y.
 /// Throws InvalidInput when skip_frames leaves no frame.

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace motex {
@@ -232,6 +234,12 @@ FrameMatrix figure_points(const Figure& figure, const Clip& clip) {
   return points;
 }
 
+FigureMotion figure_motion(const Clip& clip) {
+  FigureMotion motion{clip.name, clip.frame_time_secs, make_figure(clip.skeleton), {}};
+  motion.points = figure_points(motion.figure, clip);
+  return motion;
+}
+
 Vector3 facing(const Figure& figure, const FrameMatrix& points, Index frame) {
   const auto& pair = figure.hips[0] >= 0 && figure.hips[1] >= 0 ? figure.hips : figure.shoulders;
   if (pair[0] < 0 || pair[1] < 0) return Vector3::UnitZ();
@@ -245,10 +253,12 @@ double floor_height(const FrameMatrix& points) {
   if (points.size() == 0) return 0;
   std::vector<double> lowest;
   for (Index t = 0; t < points.rows(); ++t) {
-    double low = points(t, 1);
-    for (Index c = 4; c < points.cols(); c += 3) low = std::min(low, points(t, c));
-    lowest.push_back(low);
+    double low = std::numeric_limits<double>::infinity();
+    for (Index c = 1; c < points.cols(); c += 3)
+      if (points(t, c) < low) low = points(t, c);
+    if (std::isfinite(low)) lowest.push_back(low);
   }
+  if (lowest.empty()) return 0;
   const auto at = lowest.begin() + static_cast<std::ptrdiff_t>(lowest.size() / 50);
   std::nth_element(lowest.begin(), at, lowest.end());
   return *at;

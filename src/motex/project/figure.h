@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "motex/motion/clip.h"
@@ -47,7 +48,16 @@ FrameMatrix figure_points(const Figure& figure, const Clip& clip);
 /// Horizontal unit vector into which a frame's hips (or shoulders) look: left × up. +Z when the body has neither.
 Vector3 facing(const Figure& figure, const FrameMatrix& points, Index frame);
 
-/// Height of the floor: the 2nd percentile of each frame's lowest point.
+/// A body that moves, ready to be drawn: what a clip and what markers become.
+struct FigureMotion {
+  std::string name;
+  double frame_time_secs = 1.0 / 60;
+  Figure figure;
+  FrameMatrix points;  ///< frames × 3·num_points; NaN: not seen
+};
+FigureMotion figure_motion(const Clip& clip);
+
+/// Height of the floor: the 2nd percentile of each frame's lowest point that is not NaN.
 double floor_height(const FrameMatrix& points);
 
 }  // namespace motex

@@ -88,33 +88,33 @@ struct View {
 
 class StripPainter {
  public:
-  StripPainter(const Clip& clip, const PoseStripOptions& options)
-      : options_(options), figure_(make_figure(clip.skeleton)), points_(figure_points(figure_, clip)) {
+  StripPainter(const FigureMotion& motion, const PoseStripOptions& options)
+      : options_(options), figure_(motion.figure), points_(motion.points) {
     floor_ = floor_height(points_);
-    choose_times(clip);
+    choose_times(motion);
     choose_view();
     measure();
   }
 
-  Drawing paint(const Clip& clip, const std::vector<TextonSpan>& spans) {
+  Drawing paint(const FigureMotion& motion, const std::vector<TextonSpan>& spans) {
     const double row_height =
         above_ + below_ + (options_.frame_numbers ? 18 : 4) + (spans.empty() ? 0 : kStripHeight + 8);
     drawing_ = {2 * side_ + options_.figures * spacing_, kCaption + options_.rows * row_height + kMargin, kPaper, {}};
     char caption[160];
     std::snprintf(caption, sizeof caption, "frames %ld – %ld of %ld, %.4g a second", static_cast<long>(first_),
-                  static_cast<long>(last_), static_cast<long>(points_.rows()), clip.frame_rate());
-    drawing_.add(Text{{kMargin, 19}, clip.name, 13, kInk, Align::kLeft, true, false});
+                  static_cast<long>(last_), static_cast<long>(points_.rows()), 1 / motion.frame_time_secs);
+    drawing_.add(Text{{kMargin, 19}, motion.name, 13, kInk, Align::kLeft, true, false});
     drawing_.add(Text{{drawing_.width - kMargin, 19}, caption, 11, kFaintInk, Align::kRight, false, false});
     for (int row = 0; row < options_.rows; ++row) paint_row(row, kCaption + row * row_height + above_, spans);
     return std::move(drawing_);
   }
 
  private:
-  void choose_times(const Clip& clip) {
-    const Index frames = clip.num_frames();
-    first_ = static_cast<Index>(std::llround(std::min(options_.start_secs / clip.frame_time_secs, 1e15)));
+  void choose_times(const FigureMotion& motion) {
+    const Index frames = points_.rows();
+    first_ = static_cast<Index>(std::llround(std::min(options_.start_secs / motion.frame_time_secs, 1e15)));
     if (first_ >= frames)
-      throw InvalidInput((clip.name.empty() ? "the clip" : clip.name) + " has no frame at " +
+      throw InvalidInput((motion.name.empty() ? "the clip" : motion.name) + " has no frame at " +
                          std::to_string(options_.start_secs) + " s to draw");
     if (frames - first_ < options_.figures) {
       options_.figures = static_cast<int>(frames - first_);
@@ -122,15 +122,17 @@ class StripPainter {
     }
     const int count = options_.figures * options_.rows;
     const double secs = options_.secs > 0 ? options_.secs : kSecsPerFigure * (count - 1);
-    const double wanted = std::min(secs / clip.frame_time_secs, 1e15);
+    const double wanted = std::min(secs / motion.frame_time_secs, 1e15);
     last_ = std::min(frames - 1, first_ + static_cast<Index>(std::llround(wanted)));
     step_ = count > 1 ? static_cast<double>(last_ - first_) / (count - 1) : 0;
   }
 
   void choose_view() {
     Vector3 ahead = Vector3::Zero();
-    for (Index t = first_; t <= last_; ++t) ahead += facing(figure_, points_, t);
+    for (Index t = first_; t <= last_; ++t)
+      if (const Vector3 front = facing(figure_, points_, t); front.allFinite()) ahead += front;
     if (ahead.norm() < 0.1 * static_cast<double>(last_ - first_ + 1)) ahead = facing(figure_, points_, first_);
+    if (!ahead.allFinite()) ahead = Vector3::UnitZ();
     const Vector3 front = Eigen::AngleAxisd(options_.azimuth_deg * kPi / 180, Vector3::UnitY()) * ahead.normalized();
     const double pitch = options_.elevation_deg * kPi / 180;
     view_.right = Vector3::UnitY().cross(front);
@@ -147,6 +149,7 @@ class StripPainter {
       for (const BodyPart& part : figure_.parts)
         for (const Ball& ball : part.balls) {
           const auto [x, y] = place(t, ball.point_idx);
+          if (!std::isfinite(x + y)) continue;
           const double r = ball.radius * view_.scale;
           above_ = std::max(above_, r - y + 6);
           below_ = std::max(below_, y + r + 6);
@@ -156,14 +159,18 @@ class StripPainter {
 
   Vector3 position(Index frame, int point) const { return points_.block<1, 3>(frame, 3 * point).transpose(); }
 
-  /// The point on the floor under the hips, or under the mean of all points.
+  /// The point on the floor under the hips, or under the mean of all points that are seen.
   Vector3 ground(Index frame) const {
-    Vector3 centre = Vector3::Zero();
+    Vector3 centre = Vector3::Constant(std::nan(""));
     if (figure_.hips[0] >= 0 && figure_.hips[1] >= 0)
       centre = (position(frame, figure_.hips[0]) + position(frame, figure_.hips[1])) / 2;
-    else
-      for (int p = 0; p < figure_.num_points; ++p)
-        centre += position(frame, p) / static_cast<double>(figure_.num_points);
+    if (!centre.allFinite()) {
+      double num_seen = 0;
+      centre.setZero();
+      for (Index p = 0; p < figure_.num_points; ++p)
+        if (const Vector3 seen = position(frame, static_cast<int>(p)); seen.allFinite()) centre += seen, ++num_seen;
+      centre /= std::max(num_seen, 1.0);
+    }
     centre.y() = floor_;
     return centre;
   }
@@ -217,6 +224,7 @@ class StripPainter {
     for (const int foot : figure_.feet) {
       if (foot < 0) continue;
       Vector3 on_floor = position(frame, foot) - ground(frame);
+      if (!on_floor.allFinite()) continue;
       const double lift = std::max(0.0, on_floor.y() / figure_.height);
       on_floor.y() = 0;
       const Point p = view_.screen(on_floor);
@@ -240,7 +248,7 @@ class StripPainter {
         out.balls.push_back({{at.x + p.x, at.y + p.y}, ball.radius * view_.scale});
         out.depth += view_.towards.dot(position(frame, ball.point_idx)) / static_cast<double>(part.balls.size());
       }
-      parts.push_back(std::move(out));
+      if (std::isfinite(out.depth)) parts.push_back(std::move(out));
     }
     std::stable_sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
     return parts;
@@ -268,6 +276,7 @@ class StripPainter {
       for (Index t = frame_of(first); t <= frame_of(last); ++t) {
         const double figure = static_cast<double>(t - first_) / step_;
         const Point p = place(t, point);
+        if (!std::isfinite(p.x + p.y)) continue;
         line.points.push_back({x_of(row, figure) + p.x, floor_y + p.y});
       }
       drawing_.add(std::move(line));
@@ -302,7 +311,12 @@ class StripPainter {
 Drawing pose_strip(const Clip& clip, const std::vector<TextonSpan>& spans, const PoseStripOptions& options) {
   check_options(options);
   check_clip(clip);
-  return StripPainter(clip, options).paint(clip, spans);
+  return pose_strip(figure_motion(clip), spans, options);
+}
+
+Drawing pose_strip(const FigureMotion& motion, const std::vector<TextonSpan>& spans, const PoseStripOptions& options) {
+  check_options(options);
+  return StripPainter(motion, options).paint(motion, spans);
 }
 
 }  // namespace motex

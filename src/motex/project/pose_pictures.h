@@ -7,6 +7,7 @@
 #include "motex/core/options.h"
 #include "motex/motion/clip.h"
 #include "motex/plot/drawing.h"
+#include "motex/project/figure.h"
 #include "motex/project/texton_span.h"
 
 namespace motex {
@@ -44,5 +45,8 @@ struct PoseStripOptions {
 /// view faces the dancer's mean direction over the strip. Left limbs are blue, right ones orange. spans (may be empty)
 /// become a strip of textons under each row. Throws InvalidInput when the clip has no frame at start_secs.
 Drawing pose_strip(const Clip& clip, const std::vector<TextonSpan>& spans = {}, const PoseStripOptions& options = {});
+/// The same of any figure; points that are NaN are not drawn.
+Drawing pose_strip(const FigureMotion& motion, const std::vector<TextonSpan>& spans = {},
+                   const PoseStripOptions& options = {});
 
 }  // namespace motex

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "motex/core/base64.h"
@@ -18,7 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double kMaxQuantum = 65535;
+constexpr double kMaxQuantum = 65534;
+constexpr unsigned kNotSeen = 65535;
 
 /// Positions as 16-bit numbers: position = origin + step · quantum, the same step for all axes.
 struct QuantisedPoints {
@@ -29,19 +31,24 @@ struct QuantisedPoints {
 
 QuantisedPoints quantise(const FrameMatrix& points) {
   QuantisedPoints out;
-  Vector3 high = points.block<1, 3>(0, 0).transpose();
-  out.origin = high;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vector3 high = Vector3::Constant(-kInfinity);
+  out.origin = Vector3::Constant(kInfinity);
   for (Index t = 0; t < points.rows(); ++t)
     for (Index c = 0; c < points.cols(); ++c) {
+      if (std::isnan(points(t, c))) continue;
       out.origin[c % 3] = std::min(out.origin[c % 3], points(t, c));
       high[c % 3] = std::max(high[c % 3], points(t, c));
     }
+  if (!out.origin.allFinite()) out.origin = high = Vector3::Zero();
   const double extent = (high - out.origin).maxCoeff();
   out.step = extent > 0 ? extent / kMaxQuantum : 1;
   out.bytes.reserve(static_cast<std::size_t>(points.size()) * 2);
   for (Index t = 0; t < points.rows(); ++t)
     for (Index c = 0; c < points.cols(); ++c) {
-      const auto quantum = static_cast<unsigned>(std::lround((points(t, c) - out.origin[c % 3]) / out.step));
+      const bool seen = !std::isnan(points(t, c));
+      const auto quantum =
+          seen ? static_cast<unsigned>(std::lround((points(t, c) - out.origin[c % 3]) / out.step)) : kNotSeen;
       out.bytes += static_cast<char>(quantum & 255U);
       out.bytes += static_cast<char>(quantum >> 8U);
     }
@@ -123,23 +130,24 @@ std::string html_escaped(const std::string& text) {
   return out;
 }
 
-std::string page_data(const Clip& clip, const std::string& title, const std::vector<TextonSpan>& spans) {
-  const Figure figure = make_figure(clip.skeleton);
-  FrameMatrix points = figure_points(figure, clip);
+std::string page_data(const FigureMotion& motion, const std::string& title, const std::vector<TextonSpan>& spans) {
+  const Figure& figure = motion.figure;
+  FrameMatrix points = motion.points;
   const double floor = floor_height(points);
   for (Index c = 1; c < points.cols(); c += 3) points.col(c).array() -= floor;
   const QuantisedPoints quantised = quantise(points);
-  const Vector3 front = facing(figure, points, 0);
+  Vector3 front = facing(figure, points, 0);
+  if (!front.allFinite()) front = Vector3::UnitZ();
   json data = {{"name", title},
-               {"frameTimeSecs", clip.frame_time_secs},
-               {"numFrames", clip.num_frames()},
+               {"frameTimeSecs", motion.frame_time_secs},
+               {"numFrames", points.rows()},
                {"numPoints", figure.num_points},
                {"origin", {quantised.origin.x(), quantised.origin.y(), quantised.origin.z()}},
                {"step", quantised.step},
                {"scale", 1.7 / figure.height},
                {"frontYaw", std::atan2(front.x(), front.z())},
                {"parts", json_parts(figure)},
-               {"spans", json_spans(spans, clip.num_frames())},
+               {"spans", json_spans(spans, points.rows())},
                {"points", base64_encode(quantised.bytes)}};
   add_special_points(figure, data);
   return script_safe(data);
@@ -149,15 +157,20 @@ std::string page_data(const Clip& clip, const std::string& title, const std::vec
 
 std::string viewer_page(const Clip& clip, const std::vector<TextonSpan>& spans, const ViewerPageOptions& options) {
   check_clip(clip);
-  const std::string title = options.title.empty() ? clip.name : options.title;
-  if (clip.num_frames() == 0) throw InvalidInput((title.empty() ? "the clip" : title) + " has no frame to show");
+  return viewer_page(figure_motion(clip), spans, options);
+}
+
+std::string viewer_page(const FigureMotion& motion, const std::vector<TextonSpan>& spans,
+                        const ViewerPageOptions& options) {
+  const std::string title = options.title.empty() ? motion.name : options.title;
+  if (motion.points.rows() == 0) throw InvalidInput((title.empty() ? "the clip" : title) + " has no frame to show");
   std::string page(kViewerHtml);
   const auto fill = [&page](std::string_view mark, std::string_view text) {
     page.replace(page.find(mark), mark.size(), text);
   };
   // From the end of the page, so that no text that was filled in is searched for a mark.
   fill("@SCRIPT@", kViewerJs);
-  fill("@DATA@", page_data(clip, title, spans));
+  fill("@DATA@", page_data(motion, title, spans));
   fill("@STYLE@", kViewerCss);
   fill("@TITLE@", html_escaped(title));
   return page;

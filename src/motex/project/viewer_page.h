@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "motex/motion/clip.h"
+#include "motex/project/figure.h"
 #include "motex/project/texton_span.h"
 
 namespace motex {
@@ -20,6 +21,9 @@ struct ViewerPageOptions {
 /// the motion fills: within 0.1 mm for a stage of 6 m. Size ≈ 8 bytes × points × frames + 40 kB. Names may hold any
 /// characters. Throws InvalidInput for a clip without frames and for spans that leave it.
 std::string viewer_page(const Clip& clip, const std::vector<TextonSpan>& spans = {},
+                        const ViewerPageOptions& options = {});
+/// The same of any figure; points that are NaN are not shown.
+std::string viewer_page(const FigureMotion& motion, const std::vector<TextonSpan>& spans = {},
                         const ViewerPageOptions& options = {});
 
 }  // namespace motex

@@ -15,7 +15,7 @@
  * @property {Vec3} origin     position of the quantised (0, 0, 0), in the clip's unit, floor at y = 0
  * @property {number} step     clip units to one quantum
  * @property {number} scale    metres to the clip's unit, or what makes the body 1.7 m high
- * @property {string} points   base64 of frames × points × (x, y, z), u16, little-endian
+ * @property {string} points   base64 of frames × points × (x, y, z), u16, little-endian; 65535: not seen
  * @property {Part[]} parts
  * @property {number[]} trails points that leave a trail
  * @property {number[]} trailSides
@@ -42,10 +42,11 @@ class Motion {
     return out;
   }
 
-  /** @param {number} frame @param {number} point @param {number} axis @returns {number} metres */
+  /** @param {number} frame @param {number} point @param {number} axis @returns {number} metres; NaN: not seen */
   coordinate(frame, point, axis) {
-    const {numPoints, origin, step, scale} = this.data;
-    return (origin[axis] + this.quanta[(frame * numPoints + point) * 3 + axis] * step) * scale;
+    const kNotSeen = 65535, {numPoints, origin, step, scale} = this.data;
+    const quantum = this.quanta[(frame * numPoints + point) * 3 + axis];
+    return quantum === kNotSeen ? NaN : (origin[axis] + quantum * step) * scale;
   }
 
   /** Fills `pose`; between two frames positions are mixed. @param {number} time in frames */
@@ -54,14 +55,20 @@ class Motion {
     const a = Math.min(Math.floor(time), numFrames - 1), b = Math.min(a + 1, numFrames - 1), w = time - a;
     for (let p = 0; p < numPoints; ++p)
       for (let k = 0; k < 3; ++k)
-        this.pose[3 * p + k] = (1 - w) * this.coordinate(a, p, k) + w * this.coordinate(b, p, k);
+        this.pose[3 * p + k] = w === 0 ? this.coordinate(a, p, k) : (1 - w) * this.coordinate(a, p, k) + w * this.coordinate(b, p, k);
   }
 
   /** Middle of the body on the floor, one a frame, smoothed over about a second so that a camera can follow it. */
   smoothPath() {
     const {numFrames, centre, frameTimeSecs} = this.data, reach = Math.max(1, Math.round(0.5 / frameTimeSecs));
-    let path = [0, 2].map((axis) => Float64Array.from({length: numFrames}, (_, t) =>
-      centre.reduce((sum, p) => sum + this.coordinate(t, p, axis), 0) / centre.length));
+    let path = [0, 2].map((axis) => {
+      let last = 0;
+      return Float64Array.from({length: numFrames}, (_, t) => {
+        const seen = centre.map((p) => this.coordinate(t, p, axis)).filter((x) => !Number.isNaN(x));
+        if (seen.length > 0) last = seen.reduce((sum, x) => sum + x, 0) / seen.length;
+        return last;
+      });
+    });
     for (let pass = 0; pass < 2; ++pass) path = path.map((values) => Motion.boxFilter(values, reach));
     return path;
   }

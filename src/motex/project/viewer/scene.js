@@ -195,7 +195,7 @@ class Scene {
         return {x: p.x, y: p.y, r: radius * data.scale * p.scale};
       });
       return {discs, depth, side: part.side};
-    });
+    }).filter(({depth}) => !Number.isNaN(depth));
     drawn.sort((a, b) => b.depth - a.depth);
     for (const {discs, depth, side} of drawn) {
       if (depth < 0.3) continue;
