@@ -18,6 +18,14 @@ Command motion_compare();
 Command motion_features();
 Command motion_view();
 Command motion_convert();
+Command motion_retarget();
+Command motion_texton_list();
+Command motion_texton_name();
+Command motion_texton_drop();
+Command motion_texton_keep();
+Command motion_texton_merge();
+Command motion_texton_weight();
+Command motion_texton_undo();
 Command doctor();
 
 }  // namespace motex::cli

@@ -16,8 +16,10 @@ namespace {
 
 CommandTable make_table() {
   return {
-      motion_learn(),       motion_info(),    motion_synthesize(), motion_segment(), motion_score(),   motion_path(),
-      motion_choreograph(), motion_compare(), motion_features(),   motion_view(),    motion_convert(), doctor(),
+      motion_learn(),    motion_info(), motion_synthesize(),  motion_segment(),
+      motion_score(),    motion_path(), motion_choreograph(), motion_compare(),
+      motion_features(), motion_view(), motion_convert(),     motion_retarget(),
+      doctor(),
   };
 }
 
