@@ -288,6 +288,14 @@ struct Exhaustive {
     const double ratio = std::log(static_cast<double>(l) / static_cast<double>(n)) / std::log1p(stretch);
     return l == n ? 0 : ratio * ratio;
   }
+  /// Rows r … r + l − 1 bent at both ends.
+  void bridge(Index start_row, Index r, Index l) {
+    const double ratio = static_cast<double>(wanted + 2) / static_cast<double>(l);
+    if (ratio < 1 / (1 + stretch) - 1e-9 || ratio > 1 + stretch + 1e-9) return;
+    const double bent =
+        key_pose_distance(model().corpus, start_row, r) + key_pose_distance(model().corpus, r + l - 2, end_row);
+    best = std::min(best, 2 * bent / tau + 2 * std::log(1.3 / 0.3) + pace(wanted + 2, l));
+  }
   /// Instance a begins at frame `frames` at this cost.
   void go(int a, Index frames, double cost) {
     if (cost >= best) return;
@@ -331,6 +339,10 @@ TEST(ChoreographyPlanner, FindsTheCheapestOfAllWays) {
       all.go(b, 0,
              2 * key_pose_distance(m.corpus, start_row, m.instances[static_cast<std::size_t>(b)].row) / all.tau +
                  std::log(1.3 / 0.3));
+    if (n <= 120)
+      for (const auto& run : m.runs)
+        for (Index l = 4; l <= run.length; ++l)
+          for (Index r = run.row; r + l <= run.row + run.length; ++r) all.bridge(start_row, r, l);
     if (all.best == 1e300) {
       EXPECT_THROW(planner.plan(wanted), InvalidInput) << n;
     } else {
@@ -339,6 +351,72 @@ TEST(ChoreographyPlanner, FindsTheCheapestOfAllWays) {
     }
   }
   EXPECT_GE(num_feasible, 2);
+}
+
+/// Numbers of frames in which any chain of instances leads from pose to pose, by flooding (instance, frames).
+std::vector<bool> reachable_lengths(Index start_row, Index end_row, double stretch, Index most) {
+  const MotionTexture& m = model();
+  const int n = static_cast<int>(m.instances.size());
+  std::vector<bool> found(static_cast<std::size_t>(most) + 1, false);
+  std::vector<std::vector<bool>> begun(static_cast<std::size_t>(most) + 1, std::vector<bool>(m.instances.size()));
+  const auto each_length = [&](Index source, Index least, const auto& visit) {
+    for (Index l = least; l <= most; ++l) {
+      const double ratio = static_cast<double>(l) / static_cast<double>(source);
+      if (ratio >= 1 / (1 + stretch) - 1e-9 && ratio <= 1 + stretch + 1e-9) visit(l);
+    }
+  };
+  const auto mark = [&](Index frames) {
+    if (frames <= most) found[static_cast<std::size_t>(frames)] = true;
+  };
+  const auto hand_over = [&](int a, Index frames) {
+    mark(frames + 2);
+    for (int b = 0; b < n && frames < most; ++b)
+      if (std::isfinite(m.transitions.log_prob(m.instances[static_cast<std::size_t>(a)].texton,
+                                               m.instances[static_cast<std::size_t>(b)].texton)))
+        begun[static_cast<std::size_t>(frames)][static_cast<std::size_t>(b)] = true;
+  };
+  const auto rows_of = [&](int a, Index row) {
+    return hand_over_row(m, m.instances[static_cast<std::size_t>(a)]) + 2 - row;
+  };
+  const int home = instance_at(m, start_row), away = instance_at(m, end_row);
+  begun[0].assign(m.instances.size(), true);
+  each_length(rows_of(home, start_row), 30, [&](Index l) { hand_over(home, l - 2); });
+  for (Index frames = 0; frames <= most; ++frames)
+    for (int a = 0; a < n; ++a) {
+      if (!begun[static_cast<std::size_t>(frames)][static_cast<std::size_t>(a)]) continue;
+      const Index row = m.instances[static_cast<std::size_t>(a)].row;
+      each_length(rows_of(a, row), 60, [&](Index l) { hand_over(a, frames + l - 2); });
+      if (a == away) each_length(end_row + 2 - row, frames > 0 ? 4 : 30, [&](Index l) { mark(frames + l); });
+    }
+  return found;
+}
+
+TEST(ChoreographyPlanner, FindsAWayWheneverThereIsOne) {
+  const MotionTexture& m = model();
+  const ChoreographyPlanner planner(m);
+  int num_refused = 0, num_short = 0;
+  for (const double stretch : {0.0, 0.15})
+    for (const Index start : {7, 333, 812})
+      for (const Index end : {60, 1200, 1937}) {
+        const std::vector<bool> reachable = reachable_lengths(start, end, stretch, 330);
+        PlanRequest wanted{poses_at(m, start), poses_at(m, end), 0, stretch, 1};
+        const ChoreographyBridge bridge(m, wanted, 1, fastest_step(m));
+        for (Index n = 2; n <= 330; n += n < 130 ? 1 : 23) {
+          wanted.num_frames = n;
+          const bool can_bridge = n >= bridge.least_frames() && n <= bridge.most_frames();
+          if (!can_bridge && !reachable[static_cast<std::size_t>(n)]) {
+            ++num_refused;
+            continue;
+          }
+          num_short += n < 60 ? 1 : 0;
+          ASSERT_NO_THROW(planner.plan(wanted)) << start << " to " << end << " in " << n;
+          Index sum = 2;
+          for (const PlannedSegment& s : planner.plan(wanted).segments) sum += s.piece.length - 2;
+          ASSERT_EQ(sum, n);
+        }
+      }
+  EXPECT_GT(num_refused, 0);
+  EXPECT_GT(num_short, 100);
 }
 
 }  // namespace

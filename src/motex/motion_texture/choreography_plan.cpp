@@ -15,9 +15,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostFollowers = 24, kLeastPredecessors = 4;
 constexpr double kMostCells = 1e8;
-constexpr double kBend = 2;        // bending the first or last poses of a dance against bending those at a joint
 constexpr double kRepeatCost = 2;  // of an example that follows itself: what is likeliest must not stand still
-const double kJumpCost = std::log(1.3 / 0.3);
 
 std::size_t at(int instance) { return static_cast<std::size_t>(instance); }
 
@@ -36,19 +34,9 @@ Source stretched(Index row, Index length, double stretch, Index least) {
 
 }  // namespace
 
-int instance_at(const MotionTexture& model, Index row) {
-  const auto after = std::upper_bound(model.instances.begin(), model.instances.end(), row,
-                                      [](Index r, const Instance& instance) { return r < instance.row; });
-  return static_cast<int>(after - model.instances.begin()) - 1;
-}
-
-PlanPoses poses_at(const MotionTexture& model, Index row) {
-  return {model.corpus.middleRows(row, 2).cast<double>(), row};
-}
-
 /// Tables over (node, frames so far). Nodes: the instances, and one more for the rest of the one that holds the start.
 struct ChoreographyPlanner::Search {
-  Search(const ChoreographyPlanner& planner, const PlanRequest& wanted, Index horizon);
+  Search(const ChoreographyPlanner& planner, const Edges& edges, const PlanRequest& wanted, Index horizon);
 
   void fill(const JobContext& job);
   double cost_of(Index frames) const { return finish(frames).cost; }
@@ -74,18 +62,18 @@ struct ChoreographyPlanner::Search {
   double edge_cost(const Edge& edge, int to) const {
     return -edge.log_prob + edge.distance / tau_ + (instance_of(edge.from) == to ? kRepeatCost : 0);
   }
-  double pace_cost(const Source& source, Index length) const;
-  double bend_distance(int node) const { return distance_to(wanted_.start, source(node).row); }
-  double distance_to(const PlanPoses& poses, Index row) const {
-    return std::sqrt(0.5 * (poses.features - model_.corpus.middleRows(row, 2).cast<double>()).squaredNorm());
+  double pace_cost(const Source& source, Index length) const {
+    return motex::pace_cost(source.length, length, wanted_.stretch);
   }
+  double bend_distance(int node) const { return distance_to(wanted_.start, source(node).row); }
+  double distance_to(const PlanPoses& poses, Index row) const { return pose_distance(model_, poses.features, row); }
   double end_distance(int node) const;
   const Source& source(int node) const { return sources_[at(node)]; }
   int instance_of(int node) const { return node == rest_ ? rest_instance_ : node; }
 
   const MotionTexture& model_;
-  const std::vector<std::vector<Edge>>& predecessors_;
-  PlanRequest wanted_;
+  const Edges& predecessors_;
+  const PlanRequest& wanted_;
   double tau_;
   Index min_frames_, least_bent_;
   Index horizon_;
@@ -100,9 +88,10 @@ struct ChoreographyPlanner::Search {
   std::vector<double> begun_, done_;
 };
 
-ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const PlanRequest& wanted, Index horizon)
+ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const Edges& edges, const PlanRequest& wanted,
+                                    Index horizon)
     : model_(planner.model_),
-      predecessors_(planner.predecessors_),
+      predecessors_(edges),
       wanted_(wanted),
       tau_(planner.tau_ * wanted.nearness),
       min_frames_(planner.min_frames_),
@@ -145,13 +134,6 @@ void ChoreographyPlanner::Search::prepare_exit() {
   exit_ = stretched(row, wanted_.end.row + 2 - row, wanted_.stretch, 0);
   rest_is_exit_ = wanted_.end.row >= wanted_.start.row &&
                   (rest_instance_ == exit_instance_ || instance_at(model_, wanted_.start.row) == exit_instance_);
-}
-
-double ChoreographyPlanner::Search::pace_cost(const Source& source, Index length) const {
-  if (length == source.length) return 0;
-  const double ratio = std::log(static_cast<double>(length) / static_cast<double>(source.length)) /
-                       std::log1p(std::max(wanted_.stretch, 1e-9));
-  return ratio * ratio;
 }
 
 double ChoreographyPlanner::Search::end_distance(int node) const {
@@ -273,17 +255,15 @@ ChoreographyPlanner::ChoreographyPlanner(const MotionTexture& model)
     : model_(model),
       tau_(usual_jump_distance(model)),
       min_frames_(std::max<Index>(5, std::lround(model.options.min_duration / model.frame_time_secs()))),
-      predecessors_(model.instances.size()) {
-  keep_edges();
-}
+      fastest_(fastest_step(model)),
+      edges_(edges(kMostFollowers)) {}
 
-/// The cheapest followers of each instance, its own successor in any case, and the cheapest predecessors of each.
-void ChoreographyPlanner::keep_edges() {
+ChoreographyPlanner::Edges ChoreographyPlanner::edges(std::size_t num_followers) const {
   const int n = static_cast<int>(model_.instances.size());
   const auto cheaper = [&](const Edge& x, const Edge& y) {
     return x.distance / tau_ - x.log_prob < y.distance / tau_ - y.log_prob;
   };
-  std::vector<std::vector<Edge>> into(model_.instances.size());
+  Edges kept(model_.instances.size()), into(model_.instances.size());
   for (int a = 0; a < n; ++a) {
     const Instance& from = model_.instances[at(a)];
     const Index end = hand_over_row(model_, from);
@@ -304,36 +284,64 @@ void ChoreographyPlanner::keep_edges() {
     std::stable_sort(followers.begin(), followers.end(),
                      [&](const Follower& x, const Follower& y) { return cheaper(x.edge, y.edge); });
     for (std::size_t k = 0; k < followers.size(); ++k)
-      if (k < kMostFollowers || (followers[k].to == a + 1 && followers[k].edge.distance == 0))
-        predecessors_[at(followers[k].to)].push_back(followers[k].edge);
+      if (k < num_followers || (followers[k].to == a + 1 && followers[k].edge.distance == 0))
+        kept[at(followers[k].to)].push_back(followers[k].edge);
   }
   for (std::size_t b = 0; b < into.size(); ++b)
     for (const Edge& edge : into[b])
-      if (std::none_of(predecessors_[b].begin(), predecessors_[b].end(),
-                       [&](const Edge& other) { return other.from == edge.from; }))
-        predecessors_[b].push_back(edge);
+      if (std::none_of(kept[b].begin(), kept[b].end(), [&](const Edge& other) { return other.from == edge.from; }))
+        kept[b].push_back(edge);
+  return kept;
 }
 
 Plan ChoreographyPlanner::plan(const PlanRequest& request, const JobContext& job) const {
   if (request.num_frames < 2) throw InvalidInput("a way from pose to pose has at least 2 frames");
   const Index wanted = request.num_frames - 2;
-  {
-    Search search(*this, request, wanted);
-    search.fill(job);
-    if (search.cost_of(wanted) < kNever) return search.trace(wanted);
+  const ChoreographyBridge bridge(model_, request, tau_ * request.nearness, fastest_);
+  const auto search = [&](const Edges& graph) {
+    Search found(*this, graph, request, wanted);
+    found.fill(job);
+    return found.cost_of(wanted) < kNever ? found.trace(wanted) : Plan{{}, kNever, 0, 0, 0};
+  };
+  Plan best = search(edges_);
+  if (request.num_frames <= 2 * min_frames_) {
+    Plan bridged = bridge.plan(request.num_frames);
+    if (bridged.cost < best.cost) best = std::move(bridged);
   }
+  if (best.cost == kNever) best = search(edges(model_.instances.size()));
+  if (best.cost == kNever) best = bridge.plan(request.num_frames);
+  if (best.cost == kNever) throw_nearest(request, bridge, job);
+  return best;
+}
+
+void ChoreographyPlanner::throw_nearest(const PlanRequest& request, const ChoreographyBridge& bridge,
+                                        const JobContext& job) const {
+  const Index wanted = request.num_frames - 2;
   Index longest = 0;
   for (const Instance& a : model_.instances) longest = std::max(longest, a.length);
   const Index horizon = wanted + 2 * longest + 2;
-  Search search(*this, request, horizon);
+  Search search(*this, edges_, request, horizon);
   search.fill(job);
+  const auto works = [&](Index frames) {
+    return frames >= 0 && frames <= horizon &&
+           (search.cost_of(frames) < kNever ||
+            (frames + 2 >= bridge.least_frames() && frames + 2 <= bridge.most_frames()));
+  };
   for (Index away = 1; away <= horizon; ++away)
     for (const Index frames : {wanted - away, wanted + away})
-      if (frames >= 0 && frames <= horizon && search.cost_of(frames) < kNever)
+      if (works(frames))
         throw InvalidInput("nothing in the model leads from these poses to those in " +
                            std::to_string(request.num_frames) + " frames; the nearest that works is " +
                            std::to_string(frames + 2) + " frames");
   throw InvalidInput("nothing in the model leads from these poses to those");
+}
+
+double ChoreographyPlanner::distance_from_model(const FrameMatrix& poses) const {
+  double least = kNever;
+  for (const Run& run : model_.runs)
+    for (Index r = run.row; r + 2 <= run.row + run.length; ++r)
+      least = std::min(least, pose_distance(model_, poses, r));
+  return least;
 }
 
 }  // namespace motex
