@@ -3,6 +3,7 @@
 #include "help.h"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 #include "motex/core/error.h"
@@ -71,6 +72,18 @@ std::string as_sentence(std::string text) {
 
 std::string noun_of(const std::string& name) { return name.substr(0, name.find(' ')); }
 
+/// Every beginning of commands' names, and the words that can come next.
+std::map<std::string, std::string> groups_of(const CommandTable& table) {
+  std::map<std::string, std::string> groups;
+  for (const Command& command : table)
+    for (std::size_t at = command.name.find(' '); at != std::string::npos; at = command.name.find(' ', at + 1)) {
+      const std::string verb = command.name.substr(at + 1, command.name.find(' ', at + 1) - at - 1);
+      std::string& verbs = groups[command.name.substr(0, at)];
+      if ((" " + verbs + " ").find(" " + verb + " ") == std::string::npos) verbs += (verbs.empty() ? "" : " ") + verb;
+    }
+  return groups;
+}
+
 /// Name as a shell variable's part of a case pattern.
 std::string completion_case(const Command& command) {
   CommonFlags flags;
@@ -132,7 +145,8 @@ std::string help_overview(const CommandTable& table, const std::string& noun) {
   std::string text = "usage: motex " + (noun.empty() ? "COMMAND" : noun + " COMMAND") + " [arguments]\n\n";
   if (noun.empty()) text += "motex learns how something moves from examples and makes endless more of it.\n\n";
   for (const Command& command : table)
-    if (noun.empty() || noun_of(command.name) == noun) text += in_two_columns("  " + command.name, command.summary);
+    if (noun.empty() || command.name.starts_with(noun + " "))
+      text += in_two_columns("  " + command.name, command.summary);
   if (noun.empty()) text += in_two_columns("  completion bash", "a script for bash that completes commands and flags");
   const std::string prefix = noun.empty() ? "" : noun + " ";
   text += "\nmotex " + prefix + "COMMAND --help shows arguments and examples; motex --version the version.\n";
@@ -151,24 +165,22 @@ std::string bash_completion(const CommandTable& table) {
     if (std::find(seen.begin(), seen.end(), noun) != seen.end()) continue;
     seen.push_back(noun);
     nouns += noun + " ";
-    std::string verbs;
-    for (const Command& other : table)
-      if (other.name.starts_with(noun + " ")) verbs += other.name.substr(noun.size() + 1) + " ";
-    if (!verbs.empty()) cases += "    " + noun + ") verbs='" + verbs.substr(0, verbs.size() - 1) + "' ;;\n";
   }
+  for (const auto& [group, verbs] : groups_of(table)) cases += "    '" + group + "') verbs='" + verbs + "' ;;\n";
   std::string text =
       "# bash completion of motex: source <(motex completion bash)\n_motex() {\n"
       "  local current=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} verbs= flags= values=\n"
-      "  case ${COMP_WORDS[1]} in\n" +
+      "  local before=\"${COMP_WORDS[*]:1:COMP_CWORD-1}\"\n"
+      "  case $before in\n" +
       cases +
       "  esac\n"
       "  if [[ $COMP_CWORD == 1 ]]; then\n"
       "    COMPREPLY=($(compgen -W '" +
       nouns +
       "completion --help --version' -- \"$current\"))\n"
-      "    return\n  elif [[ $COMP_CWORD == 2 && -n $verbs ]]; then\n"
+      "    return\n  elif [[ -n $verbs ]]; then\n"
       "    COMPREPLY=($(compgen -W \"$verbs --help\" -- \"$current\"))\n    return\n  fi\n"
-      "  case \"${COMP_WORDS[1]} ${COMP_WORDS[2]} \" in\n";
+      "  case \"$before \" in\n";
   for (const Command& command : table) text += completion_case(command);
   return text +
          "    'completion '*) values=bash ;;\n  esac\n"

@@ -16,10 +16,10 @@ namespace {
 
 CommandTable make_table() {
   return {
-      motion_learn(),    motion_info(), motion_synthesize(),  motion_segment(),
-      motion_score(),    motion_path(), motion_choreograph(), motion_compare(),
-      motion_features(), motion_view(), motion_convert(),     motion_retarget(),
-      doctor(),
+      motion_learn(),       motion_info(),         motion_synthesize(),    motion_segment(),     motion_score(),
+      motion_path(),        motion_choreograph(),  motion_compare(),       motion_features(),    motion_view(),
+      motion_convert(),     motion_retarget(),     motion_texton_list(),   motion_texton_name(), motion_texton_drop(),
+      motion_texton_keep(), motion_texton_merge(), motion_texton_weight(), motion_texton_undo(), doctor(),
   };
 }
 
@@ -34,10 +34,21 @@ bool asks_for_help(const std::vector<std::string>& words) {
                      [](const std::string& word) { return word == "--help" || word == "-h"; });
 }
 
+/// What can stand after `group` ("motion texton"; "" = at the beginning) in a command's name.
+std::vector<std::string> words_after(const CommandTable& table, const std::string& group) {
+  std::vector<std::string> out;
+  for (const Command& command : table) {
+    if (!group.empty() && !command.name.starts_with(group + " ")) continue;
+    const std::string rest = command.name.substr(group.empty() ? 0 : group.size() + 1);
+    const std::string word = rest.substr(0, rest.find(' '));
+    if (std::find(out.begin(), out.end(), word) == out.end()) out.push_back(word);
+  }
+  return out;
+}
+
 /// The command that the first words name; they are taken off.
 const Command& find_command(const CommandTable& table, std::vector<std::string>& words) {
-  std::vector<std::string> known{"completion"};
-  for (std::size_t num_words : {2U, 1U}) {
+  for (std::size_t num_words : {3U, 2U, 1U}) {
     if (words.size() < num_words) continue;
     const std::string name = joined({words.begin(), words.begin() + static_cast<std::ptrdiff_t>(num_words)});
     for (const Command& command : table) {
@@ -46,17 +57,18 @@ const Command& find_command(const CommandTable& table, std::vector<std::string>&
       return command;
     }
   }
-  std::vector<std::string> verbs;
-  for (const Command& command : table) {
-    known.push_back(command.name.substr(0, command.name.find(' ')));
-    if (command.name.starts_with(words[0] + " ")) verbs.push_back(command.name.substr(words[0].size() + 1));
+  std::size_t num_known = 0;  // the longest beginning that is one of a command's name
+  std::string group;
+  std::vector<std::string> known = words_after(table, "");
+  known.push_back("completion");
+  while (num_known < words.size() && std::find(known.begin(), known.end(), words[num_known]) != known.end()) {
+    group += (group.empty() ? "" : " ") + words[num_known++];
+    known = words_after(table, group);
   }
-  if (verbs.empty())
-    throw InvalidInput("there is no command '" + words[0] + "'" + did_you_mean(words[0], known) +
-                       " (motex --help lists all)");
-  if (words.size() == 1) throw InvalidInput("motex " + words[0] + " what? " + enumerate(verbs, "or"));
-  throw InvalidInput("there is no command '" + words[0] + " " + words[1] + "'" + did_you_mean(words[1], verbs) +
-                     " (motex " + words[0] + " --help lists all)");
+  if (num_known == words.size()) throw InvalidInput("motex " + group + " what? " + enumerate(known, "or"));
+  const std::string prefix = group.empty() ? "" : group + " ";
+  throw InvalidInput("there is no command '" + prefix + words[num_known] + "'" + did_you_mean(words[num_known], known) +
+                     " (motex " + prefix + "--help lists all)");
 }
 
 /// True when the words ask for text that needs no command.
@@ -71,10 +83,9 @@ bool print_text(const CommandTable& table, const std::vector<std::string>& words
   } else if (words[0] == "completion") {
     if (!asks_for_help(words)) throw InvalidInput("usage: motex completion bash");
     session.result({}, "usage: motex completion bash\n\nExample\n  source <(motex completion bash)\n");
-  } else if (words.size() == 2 && is_help(words[1]) &&
-             std::any_of(table.begin(), table.end(),
-                         [&](const Command& command) { return command.name.starts_with(words[0] + " "); })) {
-    session.result({}, help_overview(table, words[0]));
+  } else if (words.size() <= 3 && is_help(words.back()) &&
+             !words_after(table, joined({words.begin(), words.end() - 1})).empty()) {
+    session.result({}, help_overview(table, joined({words.begin(), words.end() - 1})));
   } else {
     return false;
   }

@@ -12,6 +12,7 @@
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
+#include "texton_argument.h"
 
 namespace motex::cli {
 namespace {
@@ -34,13 +35,14 @@ std::string path_text(const TextonPath& path) {
 
 struct FindPath {
   std::string model_path;
-  int from = -1, to = -1, num_textons = 0;
+  std::string from, to;
+  int num_textons = 0;
   std::vector<std::string> outputs;
   SynthesizeOptions options;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
-    arguments.value("--from", "T", "the first texton", from).required = true;
+    arguments.value("--from", "T", "the first texton, by number or name", from).required = true;
     arguments.value("--to", "T", "the last texton", to).required = true;
     arguments
         .value("--textons", "L", "exactly that many textons, both ends counted (default: as is likeliest)", num_textons)
@@ -57,7 +59,8 @@ struct FindPath {
   void run(Session& session) {
     check_outputs(outputs, clip_output_extensions(), session);
     const MotionTexture model = load_model(model_path);
-    const TextonPaths paths = find_texton_paths(model, from, to, num_textons);
+    const TextonPaths paths =
+        find_texton_paths(model, texton_number(model, "--from", from), texton_number(model, "--to", to), num_textons);
     Value object;
     object["best"] = path_value(paths.best);
     object["runner_up"] = paths.runner_up ? path_value(*paths.runner_up) : Value();

@@ -13,18 +13,12 @@
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
+#include "texton_argument.h"
 
 namespace motex::cli {
 namespace {
 
 constexpr double kMaxFrames = 2e7;
-
-/// "3,17,17,5".
-std::vector<int> parse_path(const std::string& text) {
-  std::vector<int> path;
-  for (const std::string& word : split_at_commas(text)) parse_value("--path", word, path.emplace_back());
-  return path;
-}
 
 /// Learns anew where the feet stand, from the model's own examples, with these joints as feet.
 void name_feet(MotionTexture& model, const std::vector<std::string>& names, const JobContext& job) {
@@ -35,13 +29,12 @@ void name_feet(MotionTexture& model, const std::vector<std::string>& names, cons
 }
 
 struct Synthesize {
-  std::string model_path, path_text, feet_text;
+  std::string model_path, path_text, feet_text, texton_text;
   std::vector<std::string> outputs;
   std::int64_t frames = 0;
   double secs = 0;
   bool has_frames = false, has_secs = false;
   bool unconstrained = false;
-  int texton = -1;
   SynthesizeOptions options;
 
   void declare(Arguments& arguments) {
@@ -53,11 +46,12 @@ struct Synthesize {
                outputs)
         .required = true;
     declare_length(arguments);
-    arguments.value("--path", "T,T,…", "textons to play, in this order; with --frames or --secs it goes on from there",
+    arguments.value("--path", "T,T,…",
+                    "textons to play, numbers or names, in this order; with --frames or --secs it goes on from there",
                     path_text);
     arguments.toggle("--unconstrained", "one texton by its dynamics and noise alone, without end poses (with --texton)",
                      unconstrained);
-    arguments.value("--texton", "T", "that one", texton);
+    arguments.value("--texton", "T", "that one, by number or name", texton_text);
     arguments.section("How");
     arguments.options(options);
     arguments.value("--feet", "NAME,…", "the joints that are feet, one a leg (default: found by the model)", feet_text);
@@ -68,12 +62,13 @@ struct Synthesize {
     check_outputs(outputs, clip_output_extensions(), session);
     MotionTexture model = load_model(model_path);
     const Index num_frames = wanted_frames(model.frame_time_secs());
+    const std::vector<int> textons = texton_numbers(model, "--path", split_at_commas(path_text));
+    const int texton = unconstrained ? texton_number(model, "--texton", texton_text) : -1;
     if (session.flags.dry_run) return report_dry_run(num_frames, session);
     if (!feet_text.empty()) name_feet(model, split_at_commas(feet_text), session.job(0, 0.1));
     SynthesizeReport report;
-    Clip clip = unconstrained
-                    ? synthesize_unconstrained(model, texton, num_frames, options, report)
-                    : synthesize_motion(model, num_frames, parse_path(path_text), options, report, session.job(0, 0.9));
+    Clip clip = unconstrained ? synthesize_unconstrained(model, texton, num_frames, options, report)
+                              : synthesize_motion(model, num_frames, textons, options, report, session.job(0, 0.9));
     clip.name = std::filesystem::path(model_path).stem().string() + "_seed" + std::to_string(options.seed);
     ClipPicture picture;
     picture.spans = played_spans(model, report, clip.num_frames());
@@ -103,10 +98,10 @@ struct Synthesize {
     if (has_frames && has_secs) throw InvalidInput("--frames and --secs say the same thing twice; name one");
     const bool has_length = has_frames || has_secs;
     if (!has_length && path_text.empty()) throw InvalidInput("--frames N, --secs S or --path missing; see --help");
-    if (unconstrained && (texton < 0 || !has_length || !path_text.empty()))
+    if (unconstrained && (texton_text.empty() || !has_length || !path_text.empty()))
       throw InvalidInput("--unconstrained goes with --texton T and --frames N or --secs S, without --path");
-    if (!unconstrained && texton >= 0) throw InvalidInput("--texton goes with --unconstrained; for a path use --path");
-    parse_path(path_text);
+    if (!unconstrained && !texton_text.empty())
+      throw InvalidInput("--texton goes with --unconstrained; for a path use --path");
   }
 
   Index wanted_frames(double frame_time_secs) const {

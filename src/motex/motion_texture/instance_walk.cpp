@@ -7,20 +7,21 @@
 #include <limits>
 
 #include "motex/core/error.h"
-#include "motex/markov/graph.h"
 #include "motex/motion_texture/jumps.h"
+#include "motex/motion_texture/model_edits.h"
 
 namespace motex {
 namespace {
 
 constexpr double kPatience = 0.65;
-constexpr double kCuriosity = 6;
+constexpr double kCuriosity = 6, kSteeredCuriosity = 2;
 constexpr double kFarthest = 1.25;  // τ
 constexpr std::size_t kMostFollowers = 24;
 constexpr double kBalanceSecs = 20, kMostBalance = 3;
 constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
 
-/// Mean movement of an example in cm a frame: of the body in its heading frame, and of its root over the floor.
+}  // namespace
+
 double mean_speed(const MotionTexture& model, const Instance& x) {
   const auto y = model.corpus.middleRows(x.row, x.length);
   const auto body = (y.bottomRows(x.length - 1) - y.topRows(x.length - 1)).rightCols(y.cols() - 4);
@@ -28,8 +29,6 @@ double mean_speed(const MotionTexture& model, const Instance& x) {
   return static_cast<double>(body.rowwise().norm().mean()) +
          step * static_cast<double>(y.leftCols(2).rowwise().norm().mean());
 }
-
-}  // namespace
 
 InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path,
                            bool endless)
@@ -43,12 +42,10 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
       liveliness_(model.instances.size(), 0),
       freshness_(model.instances.size(), 1),
       value_(model.instances.size(), 1) {
-  for (const int texton : path_)
-    if (texton < 0 || texton >= static_cast<int>(model.textons.size()))
-      throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
-                         std::to_string(model.textons.size() - 1));
-  const Components components = strongly_connected_components(counted_graph(model.transitions));
-  for (const int texton : components.largest()) texton_allowed_[static_cast<std::size_t>(texton)] = true;
+  for (const int texton : path_) check_playable(model, texton);
+  std::vector<int> danced = danced_textons(model);
+  if (danced.empty()) danced = {model.instances.front().texton};
+  for (const int texton : danced) texton_allowed_[static_cast<std::size_t>(texton)] = true;
   for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) {
     const int texton = model.instances[static_cast<std::size_t>(i)].texton;
     if (texton_allowed_[static_cast<std::size_t>(texton)]) allowed_.push_back(i);
@@ -83,6 +80,12 @@ void InstanceWalk::lead_into_every_instance() {
 double InstanceWalk::transition(int from, int to) const {
   return model_.transitions.probability(model_.instances[static_cast<std::size_t>(from)].texton,
                                         model_.instances[static_cast<std::size_t>(to)].texton);
+}
+
+double InstanceWalk::fading(int instance) const {
+  if (model_.visit_ratios.empty()) return 0.5;
+  const int texton = model_.instances[static_cast<std::size_t>(instance)].texton;
+  return std::pow(0.5, 1 / model_.visit_ratios[static_cast<std::size_t>(texton)]);
 }
 
 double InstanceWalk::distance(int from, int to) const {
@@ -135,7 +138,7 @@ void InstanceWalk::look_ahead() {
     }
 }
 
-int InstanceWalk::choose_endless() {
+int InstanceWalk::choose_endless(const Taste& taste) {
   if (current_ < 0) return allowed_[rng_.below(allowed_.size())];
   const auto& followers = followers_[static_cast<std::size_t>(current_)];
   if (followers.empty()) return allowed_[rng_.below(allowed_.size())];
@@ -143,8 +146,10 @@ int InstanceWalk::choose_endless() {
   for (const Follower& b : followers) freshest = std::max(freshest, value_[static_cast<std::size_t>(b.instance)]);
   std::vector<double> weights;
   for (const Follower& b : followers)
-    weights.push_back(b.weight * std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, kCuriosity) *
-                      std::exp(-balance_ * liveliness_[static_cast<std::size_t>(b.instance)]));
+    weights.push_back(
+        b.weight *
+        std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, taste ? kSteeredCuriosity : kCuriosity) *
+        std::exp(-balance_ * liveliness_[static_cast<std::size_t>(b.instance)]) * (taste ? taste(b.instance) : 1));
   return followers[rng_.weighted(weights)].instance;
 }
 
@@ -158,11 +163,12 @@ int InstanceWalk::choose_of_texton(int texton) {
   return among[rng_.weighted(weights)];
 }
 
-int InstanceWalk::next() {
+int InstanceWalk::next(const Taste& taste) {
+  before_ = {current_, path_done_, balance_};
   if (path_done_ < path_.size())
     current_ = choose_of_texton(path_[path_done_++]);
   else if (endless_)
-    current_ = choose_endless();
+    current_ = choose_endless(taste);
   else
     return -1;
   const double secs =
@@ -170,11 +176,22 @@ int InstanceWalk::next() {
   balance_ = std::clamp(balance_ + liveliness_[static_cast<std::size_t>(current_)] * secs / kBalanceSecs, -kMostBalance,
                         kMostBalance);
   double& fresh = freshness_[static_cast<std::size_t>(current_)];
-  fresh *= 0.5;
+  fresh *= fading(current_);
   if (fresh < 1e-9)  // long ago counts less: what was played more than 30 times oftener than others starts anew
     for (double& f : freshness_) f = std::min(1.0, f * 1e6);
   look_ahead();
   return current_;
+}
+
+void InstanceWalk::take_back() {
+  if (current_ >= 0) freshness_[static_cast<std::size_t>(current_)] /= fading(current_);
+  current_ = before_.current, path_done_ = before_.path_done, balance_ = before_.balance;
+}
+
+void InstanceWalk::lead(std::vector<int> path) {
+  path_ = std::move(path);
+  path_done_ = 0;
+  before_.path_done = 0;
 }
 
 }  // namespace motex

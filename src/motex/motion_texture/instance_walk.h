@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "motex/core/rng.h"
@@ -9,22 +10,31 @@
 
 namespace motex {
 
+/// Mean movement of an example in cm a frame: of the body in its heading frame, and of its root over the floor.
+double mean_speed(const MotionTexture& model, const Instance& instance);
+
 /// Random walk over the instances of a model [MT02 5.1]: from instance a (texton i) to b (texton j) with
 ///
-///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over
+///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played / r), 0.65 max_c V(c)) over
 ///   followers c of b
 ///
 /// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
 /// Followers farther than 1.25 τ are left out where nearer ones exist. V draws the dance towards what it has not shown
 /// lately, so that it neither goes in circles nor forgets a corner of the examples. z_b: how much livelier b is than
 /// the mean example, in deviations; β: the sum of z over what was played, in units of twenty seconds, at most ± 3. It
-/// keeps the dance as lively as its source.
+/// keeps the dance as lively as its source. r: MotionTexture::visit_ratios, 1 in a model without edits.
 class InstanceWalk {
  public:
   InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless);
 
+  /// A factor of p(b), above 0; V then counts by its square only.
+  using Taste = std::function<double(int instance)>;
   /// The instance to play next, or −1 where a path that is not endless is over. The first call gives the first one.
-  int next();
+  int next(const Taste& taste = {});
+  /// Forgets the last choice; once after each next().
+  void take_back();
+  /// These textons come next, instead of what is left of the path.
+  void lead(std::vector<int> path);
 
  private:
   struct Follower {
@@ -32,12 +42,13 @@ class InstanceWalk {
     double weight = 0;  ///< M_ij · exp(−δ/τ)
   };
   std::vector<Follower> followers_of(int instance) const;
-  int choose_endless();
+  int choose_endless(const Taste& taste);
   int choose_of_texton(int texton);
   void look_ahead();
   void find_liveliness();
   void lead_into_every_instance();
   double distance(int from, int to) const;
+  double fading(int instance) const;           ///< of its freshness when it is played
   double transition(int from, int to) const;  ///< M of their textons
 
   const MotionTexture& model_;
@@ -48,6 +59,11 @@ class InstanceWalk {
   double tau_ = 1;
   std::size_t path_done_ = 0;
   int current_ = -1;
+  struct {
+    int current = -1;
+    std::size_t path_done = 0;
+    double balance = 0;
+  } before_;  ///< the last choice
   std::vector<int> allowed_;  ///< instances of the largest connected part
   std::vector<bool> texton_allowed_;
   std::vector<std::vector<Follower>> followers_;  ///< by instance

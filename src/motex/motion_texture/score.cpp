@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "motex/core/error.h"
@@ -25,10 +26,11 @@ FrameMatrixF evaluate(const MotionTexture& model, const Corpus& corpus, bool glo
   } else {
     for (int i = 0; i < static_cast<int>(model.textons.size()); ++i) {
       bank.set_texton(i, model.subspace(i), model.textons[static_cast<std::size_t>(i)].dynamics);
-      all.push_back(i);
+      if (model.textons[static_cast<std::size_t>(i)].is_playable()) all.push_back(i);
     }
   }
-  FrameMatrixF values(corpus.features.rows(), static_cast<Index>(all.size()));
+  FrameMatrixF values(corpus.features.rows(), bank.num_textons());
+  values.setConstant(-std::numeric_limits<float>::infinity());  // dropped textons
   bank.evaluate(all, values, job);
   return values;
 }

@@ -8,6 +8,7 @@
 
 #include "motex/core/options_check.h"
 #include "motex/motion_texture/instance_walk.h"
+#include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/segment_synthesis.h"
 
 namespace motex {
@@ -153,9 +154,7 @@ Clip synthesize_motion(const MotionTexture& model, Index num_frames, const std::
 Clip synthesize_unconstrained(const MotionTexture& model, int texton, Index num_frames,
                               const SynthesizeOptions& options, SynthesizeReport& report) {
   check_options(options);
-  if (texton < 0 || texton >= static_cast<int>(model.textons.size()))
-    throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
-                       std::to_string(model.textons.size() - 1));
+  check_playable(model, texton);
   if (num_frames < 2) throw InvalidInput("an unconstrained texton needs at least 2 frames");
   check_not_too_many(num_frames);
   Rng rng(options.seed);

@@ -8,6 +8,7 @@
 #include "motex/core/error.h"
 #include "motex/markov/paths.h"
 #include "motex/motion_texture/jumps.h"
+#include "motex/motion_texture/model_edits.h"
 
 namespace motex {
 namespace {
@@ -41,10 +42,7 @@ std::string of_textons(std::string text) {
 }  // namespace
 
 TextonPaths find_texton_paths(const MotionTexture& model, int from, int to, int num_textons) {
-  for (const int texton : {from, to})
-    if (texton < 0 || texton >= static_cast<int>(model.textons.size()))
-      throw InvalidInput("there is no texton " + std::to_string(texton) + "; the model has 0 … " +
-                         std::to_string(model.textons.size() - 1));
+  for (const int texton : {from, to}) check_playable(model, texton);
   if (num_textons < 0 || num_textons > kMostTextons)
     throw InvalidInput("a path has 1 to " + std::to_string(kMostTextons) + " textons");
   std::vector<Path> paths;
