@@ -22,7 +22,8 @@ constexpr double kSmoothSecs = 0.25;    // over which movement is averaged
 constexpr double kTaperSecs = 0.25;     // before and after a frame whose speed stays
 constexpr double kStandingShare = 0.1;  // of the mean movement: what standing frames count
 constexpr double kLeastMoveCm = 1e-3;
-constexpr double kSpareCm = 1;  // beyond the body's radius, around boxes
+constexpr double kSpareCm = 1;        // beyond the body's radius, around boxes
+constexpr double kLongestDetour = 2;  // around boxes, against the way without them
 constexpr int kContinuation = 8, kMostNewton = 40, kMostPushes = 80;
 
 /// coefficients · (x, z, ψ), averaged over the frames frame − spread … frame + spread, shall be `value`.
@@ -176,6 +177,12 @@ double Bender::cost() const {
       sum += (cm_ * cm_ * corrections_.row(t).head<2>().squaredNorm() +
               kTurnCm * kTurnCm * corrections_(t, 2) * corrections_(t, 2)) /
              freedom_[t];
+  return sum;
+}
+
+double way_length(const RootPath& path) {
+  double sum = 0;
+  for (Index t = 1; t < path.num_frames(); ++t) sum += std::hypot(path.x[t] - path.x[t - 1], path.z[t] - path.z[t - 1]);
   return sum;
 }
 
@@ -341,9 +348,8 @@ BendPathReport bend_root_path(RootPath& path, double frame_time_secs, double cm_
     report.cost = bender.cost();
     report.largest_turn = (bender.path().heading - path.heading).cwiseAbs().maxCoeff();
     report.largest_shift =
-        (bender.path().x - path.x).cwiseAbs2().cwiseMax((bender.path().z - path.z).cwiseAbs2()).maxCoeff();
-    report.largest_shift =
         ((bender.path().x - path.x).cwiseAbs2() + (bender.path().z - path.z).cwiseAbs2()).cwiseSqrt().maxCoeff();
+    report.way = way_length(bender.path()) / std::max(way_length(path), 1e-9);
     Index frame = 0;
     path = bender.path();
     report.clearance = clearance(path, boxes, frame);

@@ -42,6 +42,7 @@ struct BendPathReport {
   double cost = 0;           ///< Σ a²/A + |b|²/B, below
   double largest_turn = 0;   ///< rad, farthest that the heading was turned away from the old one
   double largest_shift = 0;  ///< units, farthest from the old path
+  double way = 1;            ///< length of the new path / length of the old one
   double clearance = 0;      ///< units, least distance of the root from a box; infinite without boxes
 };
 
