@@ -69,6 +69,10 @@ void AtomicFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("writing");
 }
 
+bool AtomicFile::seek(std::uint64_t position) {
+  return !temporary_.empty() && std::fseek(file_, static_cast<long>(position), SEEK_SET) == 0;
+}
+
 void AtomicFile::commit() {
   if (std::fflush(file_) != 0) fail("writing");
   if (!temporary_.empty() && ::fsync(::fileno(file_)) != 0) fail("writing");

@@ -26,6 +26,8 @@ class AtomicFile {
 
   /// Throws WriteError when the disk is full or fails.
   void write(std::string_view bytes);
+  /// Goes on writing at that place, from the beginning of the file; false where that is impossible (a pipe).
+  bool seek(std::uint64_t position);
   /// Flushes to disk and renames. Throws WriteError; then the old target is untouched.
   void commit();
 

@@ -147,6 +147,12 @@ void PixelConverter::convert(const AVFrame& frame, int format, int bytes_per_pix
 }
 
 void PixelConverter::to_image(const AVFrame& frame, Image& image) {
+  if (bit_depth_of(frame.format) > 8) {  // rounded here, because the scaler would dither
+    Planes planes;
+    to_planes(frame, planes);
+    image = motex::to_image(planes);
+    return;
+  }
   convert(frame, AV_PIX_FMT_RGBA, 4);
   const Turning turning{orientation_, width_, height_};
   image.width = turning.shown_width();

@@ -146,6 +146,7 @@ void LibavSource::take_time() {
   // Time stamps that are missing or run backwards are replaced by the usual step.
   if (idx_ > 0 && (!known || time_secs_ <= before)) time_secs_ = before + usual_step;
   if (idx_ == 0) time_secs_ = std::max(0.0, time_secs_);
+  if (idx_ > 0) longest_step_secs_ = std::max(longest_step_secs_, time_secs_ - before);
   const bool resized = info_.rotation_deg % 180 == 0 ? frame_->width != info_.width || frame_->height != info_.height
                                                      : frame_->width != info_.height || frame_->height != info_.width;
   if (resized && !warned_size_) {
@@ -170,16 +171,16 @@ bool LibavSource::advance() {
 void LibavSource::finish() {
   has_ended_ = true;
   if (warned_ || has_sought_) return;
-  const std::int64_t num_read = idx_ + 1;
-  const std::int64_t said = info_.num_frames_said;
-  std::string trouble;
-  if (cut_off_ || num_damaged_ > 0 || num_read < said) {
-    trouble = num_damaged_ > 0 ? "is damaged in " + std::to_string(num_damaged_) + " places or cut off"
-                               : "is cut off or its header is wrong";
-    job_.warn(info_.name + ": " + trouble + ": " + std::to_string(num_read) +
-              (said > num_read ? " of " + std::to_string(said) : std::string()) + " frames could be read and are used");
-    warned_ = true;
-  }
+  const std::int64_t num_read = idx_ + 1, said = info_.num_frames_said;
+  // Matroska counts no frames; there the length tells.
+  const double secs_missing = info_.duration_secs - time_secs_ - 2 * longest_step_secs_;
+  const bool too_short = said > 0 ? num_read < said : !info_.has_sound && longest_step_secs_ > 0 && secs_missing > 0.1;
+  if (!cut_off_ && num_damaged_ == 0 && !too_short) return;
+  warned_ = true;
+  const std::string trouble = num_damaged_ > 0 ? "is damaged in " + std::to_string(num_damaged_) + " places or cut off"
+                                               : "is cut off or its header is wrong";
+  job_.warn(info_.name + ": " + trouble + ": " + std::to_string(num_read) +
+            (said > num_read ? " of " + std::to_string(said) : std::string()) + " frames could be read and are used");
 }
 
 void LibavSource::to_image(Image& image) const { converter_.to_image(*frame_, image); }

@@ -55,7 +55,7 @@ class LibavSource : public FrameSource {
   bool has_sought_ = false;
   std::int64_t num_damaged_ = 0;
   std::int64_t idx_ = -1;
-  double time_secs_ = 0, first_secs_ = 0;
+  double time_secs_ = 0, first_secs_ = 0, longest_step_secs_ = 0;
 };
 
 }  // namespace motex::libav

@@ -4,11 +4,9 @@
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavutil/opt.h>
 #include <libavutil/pixdesc.h>
 }
 
-#include <algorithm>
 #include <new>
 
 #include "motex/core/error.h"
@@ -16,7 +14,8 @@ extern "C" {
 namespace motex {
 namespace {
 
-constexpr int kMaxPages = 65535;
+constexpr std::size_t kMaxPages = 65535;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 std::uint32_t read_number(std::string_view bytes, std::size_t at, std::size_t size, bool big_endian) {
   std::uint32_t value = 0;
@@ -25,32 +24,42 @@ std::uint32_t read_number(std::string_view bytes, std::size_t at, std::size_t si
   return value;
 }
 
+bool is_little_endian(std::string_view bytes) {
+  return bytes.size() >= 8 && bytes.substr(0, 4) == std::string_view("II*\0", 4);
+}
+bool is_big_endian(std::string_view bytes) {
+  return bytes.size() >= 8 && bytes.substr(0, 4) == std::string_view("MM\0*", 4);
+}
+
+void keep(void*, std::uint8_t*) {}
+
 }  // namespace
 
-int count_tiff_pages(std::string_view bytes) {
-  if (bytes.size() < 8) return 0;
-  const std::string_view mark = bytes.substr(0, 4);
-  const bool big_endian = mark == std::string_view("MM\0*", 4);
-  if (!big_endian && mark != std::string_view("II*\0", 4)) return 0;
-  int num_pages = 0;
-  std::size_t at = read_number(bytes, 4, 4, big_endian);
-  while (at != 0 && at + 2 <= bytes.size() && num_pages < kMaxPages) {
+std::vector<std::uint32_t> find_tiff_pages(std::string_view bytes) {
+  if (!is_little_endian(bytes) && !is_big_endian(bytes)) return {};
+  const bool big_endian = is_big_endian(bytes);
+  std::vector<std::uint32_t> pages;
+  std::uint32_t at = read_number(bytes, 4, 4, big_endian);
+  while (at != 0 && std::size_t{at} + 2 <= bytes.size() && pages.size() < kMaxPages) {
     const std::size_t next = at + 2 + std::size_t{12} * read_number(bytes, at, 2, big_endian);
     if (next + 4 > bytes.size()) break;
-    ++num_pages;
+    pages.push_back(at);
     at = read_number(bytes, next, 4, big_endian);
   }
-  return num_pages;
+  return pages;
 }
 
 TiffStack::TiffStack(std::string bytes, const std::string& name, double frames_per_sec, const JobContext& job)
     : bytes_(std::move(bytes)),
       job_(job),
-      num_pages_(count_tiff_pages(bytes_)),
+      big_endian_(is_big_endian(bytes_)),
+      pages_(find_tiff_pages(bytes_)),
       frame_(libav::new_frame()),
       packet_(libav::new_packet()) {
   libav::silence();
   info_.name = name;
+  if (bytes_.size() > kMaxBytes) throw UnsupportedFile(name + ": TIFF files go up to 1 GiB; split it");
+  bytes_.resize(bytes_.size() + AV_INPUT_BUFFER_PADDING_SIZE);
   const AVCodec* decoder = avcodec_find_decoder(AV_CODEC_ID_TIFF);
   codec_.reset(avcodec_alloc_context3(decoder));
   if (codec_ == nullptr) throw std::bad_alloc();
@@ -68,29 +77,34 @@ TiffStack::TiffStack(std::string bytes, const std::string& name, double frames_p
   info_.num_channels = libav::num_channels_of(frame_->format);
   info_.bit_depth = libav::bit_depth_of(frame_->format);
   info_.frames_per_sec = frames_per_sec;
-  info_.num_frames_said = num_pages_;
-  info_.duration_secs = num_pages_ / frames_per_sec;
+  info_.num_frames_said = static_cast<std::int64_t>(pages_.size());
+  info_.duration_secs = static_cast<double>(pages_.size()) / frames_per_sec;
 }
 
 bool TiffStack::decode(std::int64_t idx) {
   job_.check_cancelled();
+  if (idx >= static_cast<std::int64_t>(pages_.size())) return false;
+  for (int k = 0; k < 4; ++k)
+    bytes_[static_cast<std::size_t>(4 + k)] =
+        static_cast<char>(pages_[static_cast<std::size_t>(idx)] >> 8 * (big_endian_ ? 3 - k : k) & 255);
   avcodec_flush_buffers(codec_.get());
   av_packet_unref(packet_.get());
-  if (bytes_.size() > std::size_t{1} << 30 || av_new_packet(packet_.get(), static_cast<int>(bytes_.size())) < 0)
-    throw UnsupportedFile(info_.name + ": TIFF files go up to 1 GiB; split it");
-  std::copy(bytes_.begin(), bytes_.end(), packet_->data);
-  av_opt_set_int(codec_->priv_data, "page", idx + 1, 0);
+  auto* data = reinterpret_cast<std::uint8_t*>(bytes_.data());
+  packet_->buf = av_buffer_create(data, bytes_.size(), &keep, nullptr, AV_BUFFER_FLAG_READONLY);
+  if (packet_->buf == nullptr) throw std::bad_alloc();
+  packet_->data = data;
+  packet_->size = static_cast<int>(bytes_.size() - AV_INPUT_BUFFER_PADDING_SIZE);
   if (avcodec_send_packet(codec_.get(), packet_.get()) < 0) return false;
   const bool decoded = avcodec_receive_frame(codec_.get(), frame_.get()) >= 0;
   return decoded && frame_->width > 0 && frame_->height > 0;
 }
 
 bool TiffStack::advance() {
-  if (idx_ + 1 >= num_pages_) return false;
+  if (idx_ + 1 >= static_cast<std::int64_t>(pages_.size())) return false;
   if (!decode(idx_ + 1)) {
-    job_.warn(info_.name + ": page " + std::to_string(idx_ + 1) + " of " + std::to_string(num_pages_) +
+    job_.warn(info_.name + ": page " + std::to_string(idx_ + 1) + " of " + std::to_string(pages_.size()) +
               " cannot be read; the pages before it are used");
-    num_pages_ = static_cast<int>(idx_ + 1);
+    pages_.resize(static_cast<std::size_t>(idx_ + 1));
     return false;
   }
   if (frame_->width != info_.width || frame_->height != info_.height)
@@ -109,7 +123,7 @@ void TiffStack::to_planes(Planes& planes) const {
 }
 
 std::vector<double> TiffStack::frame_times() {
-  std::vector<double> times(static_cast<std::size_t>(num_pages_));
+  std::vector<double> times(pages_.size());
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = static_cast<double>(i) / info_.frames_per_sec;
   return times;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,10 +13,11 @@
 
 namespace motex {
 
-/// Number of pages of a TIFF file by its chain of directories; 0 when the bytes are no TIFF file. At most 65535.
-int count_tiff_pages(std::string_view bytes);
+/// Where the directories of the pages of a TIFF file stand; none when the bytes are no TIFF file. At most 65535.
+std::vector<std::uint32_t> find_tiff_pages(std::string_view bytes);
 
-/// The pages of a TIFF file as frames. Memory: the file and one page.
+/// The pages of a TIFF file as frames. Memory: the file and one page. The decoder only knows first pages, so each page
+/// is made the first in turn.
 class TiffStack : public FrameSource {
  public:
   /// Throws UnsupportedFile when the first page cannot be decoded.
@@ -35,7 +37,8 @@ class TiffStack : public FrameSource {
   std::string bytes_;
   JobContext job_;
   VideoInfo info_;
-  int num_pages_;
+  bool big_endian_ = false;
+  std::vector<std::uint32_t> pages_;
   libav::Handle<AVCodecContext> codec_;
   libav::Handle<AVFrame> frame_;
   libav::Handle<AVPacket> packet_;

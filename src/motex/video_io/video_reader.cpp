@@ -47,7 +47,7 @@ VideoReader::VideoReader(const std::filesystem::path& path, const ReadVideoOptio
 VideoReader::VideoReader(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
 
 VideoReader VideoReader::from_bytes(std::string_view bytes, const std::string& name, const JobContext& job) {
-  if (count_tiff_pages(bytes) > 0)
+  if (!find_tiff_pages(bytes).empty())
     return VideoReader(std::make_unique<TiffStack>(std::string(bytes), name, ReadVideoOptions{}.frames_per_sec, job));
   return VideoReader(open_input_source(open_input(bytes), name, job));
 }

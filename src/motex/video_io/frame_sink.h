@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "motex/core/job.h"
+#include "motex/image/image.h"
+
+namespace motex {
+
+/// One way in which frames are stored; VideoWriter is the public face.
+class FrameSink {
+ public:
+  virtual ~FrameSink() = default;
+  virtual void write(const Image& image, double time_secs) = 0;
+  virtual void finish() = 0;
+};
+
+struct SinkShape {
+  int width = 0, height = 0;
+  double frames_per_sec = 25;
+  bool alpha = false;
+};
+
+std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, const SinkShape& shape,
+                                           const JobContext& job);
+/// A folder or a pattern with %d; what was written is removed again unless it was finished.
+std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, const SinkShape& shape);
+
+}  // namespace motex
