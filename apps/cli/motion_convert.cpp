@@ -16,7 +16,9 @@ struct Convert {
 
   void declare(Arguments& arguments) {
     arguments.positional("CLIP", "clip to read: .bvh, .glb, .gltf, .amc, or markers: .c3d, .trc", clip_path);
-    arguments.value("-o,--output", "OUT", "clip to write: .bvh, .glb, .csv, .npz; markers: .trc, .c3d, .csv, .npz", output).required = true;
+    arguments
+        .value("-o,--output", "OUT", "clip to write: .bvh, .glb, .csv, .npz; markers: .trc, .c3d, .csv, .npz", output)
+        .required = true;
     arguments.section("Reading the clip");
     arguments.options(read);
   }

@@ -26,7 +26,8 @@ struct View {
 
   void run(Session& session) {
     check_output(output, picture_extensions(), session);
-    const Index num_frames = holds_markers(std::filesystem::path(clip_path)) ? show_markers(session) : show_clip(session);
+    const Index num_frames =
+        holds_markers(std::filesystem::path(clip_path)) ? show_markers(session) : show_clip(session);
     session.say((session.flags.dry_run ? "would write " : "wrote ") + output);
     Value object;
     object["frames"] = std::int64_t{num_frames};

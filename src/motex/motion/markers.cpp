@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "motex/core/error.h"
@@ -70,13 +71,15 @@ void check_markers(const MarkerSet& markers) {
 }
 
 std::vector<std::string> distinct_marker_names(std::vector<std::string> names) {
-  std::set<std::string> stated(names.begin(), names.end()), used;
+  const std::set<std::string> stated(names.begin(), names.end());
+  std::set<std::string> used;
+  std::map<std::string, int> next;  // number to try for a name given again
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string base = names[i].empty() ? "marker" + std::to_string(i) : names[i];
     std::string name = base;
     // A name made here must not take one that a later marker states.
-    for (int n = 2; used.count(name) > 0 || (name != names[i] && stated.count(name) > 0); ++n)
-      name = base + "_" + std::to_string(n);
+    while (used.count(name) > 0 || (name != names[i] && stated.count(name) > 0))
+      name = base + "_" + std::to_string(++next.try_emplace(base, 1).first->second);
     used.insert(name);
     names[i] = std::move(name);
   }
@@ -152,7 +155,7 @@ std::vector<std::pair<int, int>> rigid_pairs(const MarkerSet& markers) {
     for (int b = a + 1; b < n; ++b) between(a, b) = between(b, a) = distance_between(markers, a, b);
   const auto shielded = [&](int a, int b) {
     for (int c = 0; c < n; ++c)
-      if (c != a && c != b && between(a, c).rigid && between(b, c).rigid &&
+      if (c != a && c != b && between(a, c).mean > 0 && between(b, c).mean > 0 &&
           std::max(between(a, c).mean, between(b, c).mean) < between(a, b).mean)
         return true;
     return false;

@@ -105,8 +105,8 @@ class C3dReader {
     const double stated = parameters_.unsigned_number("POINT:DATA_START").value_or(0);
     if (layout.data_at == 0 && stated > 1) layout.data_at = (static_cast<std::size_t>(stated) - 1) * 512;
     if (layout.data_at == 0) bytes_.fail(16, "the file does not say where its data start");
-    layout.frame_size = static_cast<std::size_t>(4 * header_.num_points + header_.analog_per_frame) *
-                        (layout.is_float ? 4 : 2);
+    layout.frame_size =
+        static_cast<std::size_t>(4 * header_.num_points + header_.analog_per_frame) * (layout.is_float ? 4 : 2);
     const std::size_t room = bytes_.size() > layout.data_at ? bytes_.size() - layout.data_at : 0;
     layout.num_frames = choose_num_frames(static_cast<double>(room / layout.frame_size));
     return layout;
@@ -122,8 +122,9 @@ class C3dReader {
     const double in_header = header_.last_frame - header_.first_frame + 1;
     double largest = 0;
     bool skipped = false;
-    for (double stated : {last > 0 ? last - std::max(first, 1.0) + 1 : 0, parameters_.number("POINT:LONG_FRAMES").value_or(0),
-                          parameters_.unsigned_number("POINT:FRAMES").value_or(0), in_header}) {
+    for (double stated :
+         {last > 0 ? last - std::max(first, 1.0) + 1 : 0, parameters_.number("POINT:LONG_FRAMES").value_or(0),
+          parameters_.unsigned_number("POINT:FRAMES").value_or(0), in_header}) {
       if (!(stated >= 1) || !std::isfinite(stated)) continue;
       stated = std::floor(stated);
       if (stated == kClampedFrames && room > stated) {

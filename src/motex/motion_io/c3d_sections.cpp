@@ -80,8 +80,7 @@ C3dHeader read_c3d_header(C3dBytes& bytes, const JobContext& job) {
 }
 
 C3dParameters::C3dParameters(const C3dBytes& bytes, const C3dHeader& header, const JobContext& job) : bytes_(bytes) {
-  const std::size_t end =
-      header.data_at > header.parameters_at ? std::min(header.data_at, bytes.size()) : bytes.size();
+  const std::size_t end = header.data_at > header.parameters_at ? std::min(header.data_at, bytes.size()) : bytes.size();
   std::size_t at = header.parameters_at + 4;
   while (at + 2 <= end && bytes.byte(at) != 0) {
     const std::size_t next = read_record(at, end);
@@ -93,19 +92,27 @@ C3dParameters::C3dParameters(const C3dBytes& bytes, const C3dHeader& header, con
   }
 }
 
-// Where the next record begins; 0 after the last, `at` for one that is damaged.
+// Where the next record begins; 0 after the last, `at` for one that is damaged. A link that leads nowhere is replaced
+// by the record's own length (a well-known SGI file has one in the wrong byte order).
 std::size_t C3dParameters::read_record(std::size_t at, std::size_t end) {
-  const auto signed_byte = [&](std::size_t place) { return static_cast<int>(static_cast<std::int8_t>(bytes_.byte(place))); };
+  const auto signed_byte = [&](std::size_t place) {
+    return static_cast<int>(static_cast<std::int8_t>(bytes_.byte(place)));
+  };
   const auto name_length = static_cast<std::size_t>(std::abs(signed_byte(at)));  // negative: locked
   const int id = signed_byte(at + 1);
   const std::size_t link = at + 2 + name_length;
   if (link + 2 > end) return at;
   const std::string name = upper(bytes_.text(at + 2, name_length));
-  const std::size_t offset = bytes_.word(link), next = offset == 0 ? 0 : link + offset;
-  if (next > end || (offset != 0 && next < link + 2)) return at;
+  const std::size_t offset = bytes_.word(link);
+  const auto next_after = [&](std::size_t body_end) {  // of the record without its description
+    if (offset == 0) return std::size_t{0};
+    if (link + offset >= body_end && link + offset <= end) return link + offset;
+    const std::size_t next = body_end + 1 + (body_end < end ? bytes_.byte(body_end) : 0);
+    return next <= end ? next : at;
+  };
   if (id < 0) {
     groups_[-id] = name;
-    return next;
+    return next_after(link + 2);
   }
   if (link + 4 > end) return at;
   Parameter parameter;
@@ -123,7 +130,7 @@ std::size_t C3dParameters::read_record(std::size_t at, std::size_t end) {
   if (element != 1 && element != 2 && element != 4) return at;
   if (parameter.count * element > end - parameter.at) return at;
   parameters_.emplace(std::pair(id, name), parameter);
-  return next;
+  return next_after(parameter.at + parameter.count * element);
 }
 
 const C3dParameters::Parameter* C3dParameters::find(const std::string& name) const {

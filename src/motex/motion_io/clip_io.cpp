@@ -68,7 +68,8 @@ std::string joined(const std::vector<std::string>& extensions) {
   if (kind == Kind::kMotex) throw UnsupportedFile(name + ": is a motex model, not a clip");
   if (kind == Kind::kAsf) throw UnsupportedFile(name + ": is a skeleton without motion; name the .amc clip beside it");
   if (kind == Kind::kC3d || kind == Kind::kTrc)
-    throw UnsupportedFile(name + ": holds markers, not a skeleton that moves; motex views and converts them; to learn "
+    throw UnsupportedFile(name + ": is a " + kKindNames[static_cast<int>(kind)] +
+                          " file, which holds markers, not a skeleton; motex views and converts them; to learn "
                           "from them, solve them for a skeleton in a motion capture program and save that as BVH");
   if (kind == Kind::kUnknown) throw UnsupportedFile(name + ": is of no known kind" + read);
   throw UnsupportedFile(name + ": is a " + kKindNames[static_cast<int>(kind)] + " file" + read);

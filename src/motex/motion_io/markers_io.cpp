@@ -161,10 +161,10 @@ std::string write_npz_bytes(const MarkerSet& markers) {
 
 double metres_of_unit_name(std::string_view name) {
   static constexpr std::pair<const char*, double> kUnits[] = {
-      {"mm", 0.001}, {"millimeters", 0.001}, {"millimetres", 0.001}, {"millimeter", 0.001},
-      {"cm", 0.01},  {"centimeters", 0.01},  {"centimetres", 0.01},  {"centimeter", 0.01},
-      {"m", 1},      {"meters", 1},          {"metres", 1},          {"meter", 1},
-      {"in", 0.0254}, {"inch", 0.0254},      {"inches", 0.0254},     {"ft", 0.3048},
+      {"mm", 0.001},   {"millimeters", 0.001}, {"millimetres", 0.001}, {"millimeter", 0.001},
+      {"cm", 0.01},    {"centimeters", 0.01},  {"centimetres", 0.01},  {"centimeter", 0.01},
+      {"m", 1},        {"meters", 1},          {"metres", 1},          {"meter", 1},
+      {"in", 0.0254},  {"inch", 0.0254},       {"inches", 0.0254},     {"ft", 0.3048},
       {"feet", 0.3048}};
   for (const auto& [unit, metres] : kUnits)
     if (same_word(name, unit)) return metres;

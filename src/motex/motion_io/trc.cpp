@@ -82,6 +82,7 @@ class TrcReader {
       : table_(bytes, name), numbers_("", name), options_(options), job_(job) {
     markers_.name = clip_name(name);
     name_ = name;
+    most_bytes_ = 64e6 + 64 * static_cast<double>(bytes.size());
   }
 
   MarkerSet read() {
@@ -160,6 +161,9 @@ class TrcReader {
     if (cells.size() > 2 + num_values)
       table_.fail("the row has " + std::to_string(cells.size() - 2) + " coordinates, " + std::to_string(num_values) +
                   " are named");
+    // Short rows of many names would take memory without limit.
+    if (static_cast<double>(values_.size()) * sizeof(double) > most_bytes_)
+      table_.fail("the file asks for more memory by cells that are not there than it can mean");
     for (std::size_t m = 0; m < markers_.names.size(); ++m) {
       int num_missing = 0;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -190,7 +194,7 @@ class TrcReader {
   MarkerSet markers_;
   std::vector<double> values_;
   Index num_rows_ = 0;
-  double time_step_ = 0;
+  double time_step_ = 0, most_bytes_ = 0;
 };
 
 void append(std::string& text, double value) {

@@ -16,7 +16,7 @@ namespace motex {
 /// tabs; a file whose first line has none may use commas or semicolons, or blanks if no cell is empty. Missing: empty
 /// cells or NaN for all three coordinates; cells that a row lacks at its end. The rows that are there count, not
 /// NumFrames; the rate is DataRate, else that of the time column; options.fps overrides it. Of the options only fps is
-/// used here. Memory ≤ 24 × the file. Throws ParseError with the line.
+/// used here. Memory ≤ 64 × the file + 64 MB. Throws ParseError with the line.
 MarkerSet read_trc_bytes(std::string_view bytes, const std::string& name, const ReadClipOptions& options = {},
                          const JobContext& job = {});
 

@@ -10,7 +10,7 @@
 namespace motex {
 namespace {
 
-constexpr double kMarkerRadius = 0.011, kStickRadius = 0.0032;  // shares of the height
+constexpr double kMarkerRadius = 0.011, kStickRadius = 0.0022;  // shares of the height
 
 std::string lower(std::string text) {
   for (char& c : text)
@@ -81,7 +81,8 @@ FigureMotion figure_motion(const MarkerSet& markers) {
   figure.num_points = markers.num_markers();
   figure.height = markers.metres_per_unit > 0 ? 1.7 / markers.metres_per_unit : height_of(markers);
   for (const auto& [first, second] : rigid_pairs(markers))
-    figure.parts.push_back({{{first, kStickRadius * figure.height}, {second, kStickRadius * figure.height}}, Side::kMiddle});
+    figure.parts.push_back(
+        {{{first, kStickRadius * figure.height}, {second, kStickRadius * figure.height}}, Side::kMiddle});
   for (int m = 0; m < markers.num_markers(); ++m)
     figure.parts.push_back({{{m, kMarkerRadius * figure.height}}, side_of_marker(markers, m)});
   for (const auto& [s, side] : {std::pair{0U, Side::kLeft}, {1U, Side::kRight}}) {
