@@ -12,6 +12,7 @@ Command motion_info();
 Command motion_synthesize();
 Command motion_path();
 Command motion_choreograph();
+Command motion_inbetween();
 Command motion_segment();
 Command motion_score();
 Command motion_compare();

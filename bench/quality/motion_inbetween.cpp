@@ -43,8 +43,11 @@ void fill_gaps(const Split& split, const motex::MotionTexture& model, Index gap,
   mean.aim = motex::InbetweenAim::kMean;
   unfixed.foot_fix = false;
   const motex::GapShape shape{gap, kContext, kContext}, one_target{gap, kContext, 1};
-  const motex::Inbetweener ours[] = {{model, shape, lively}, {model, shape, unfixed}, {model, shape, mean},
-                                     {model, one_target, lively}, {model, one_target, mean}};
+  const motex::Inbetweener ours[] = {{model, shape, lively},
+                                     {model, shape, unfixed},
+                                     {model, shape, mean},
+                                     {model, one_target, lively},
+                                     {model, one_target, mean}};
   for (const Clip& clip : split.held_out)
     for (Index first = kContext; first + gap + kContext <= clip.num_frames(); first += kEvery) {
       methods[0].measures.back().add(clip, hold_gap(clip, first, gap), first);
@@ -52,8 +55,8 @@ void fill_gaps(const Split& split, const motex::MotionTexture& model, Index gap,
       const Clip before = slice(clip, 0, first), after = slice(clip, first + gap, clip.num_frames() - first - gap);
       motex::InbetweenReport report;
       for (std::size_t i = 0; i < std::size(ours); ++i)
-        methods[2 + i].measures.back().add(
-            clip, ours[i].fill(before, i < 3 ? after : slice(after, 0, 1), report), first);
+        methods[2 + i].measures.back().add(clip, ours[i].fill(before, i < 3 ? after : slice(after, 0, 1), report),
+                                           first);
     }
 }
 
@@ -67,8 +70,9 @@ void print_table(Index gap, const std::vector<Method>& methods) {
       mean.l2p += e.l2p / n, mean.l2q += e.l2q / n, mean.npss += e.npss / n, mean.npss_real += e.npss_real / n;
       mean.num_gaps += e.num_gaps;
     }
-    std::printf("  %-32s L2P %6.3f  L2Q %6.3f  NPSS %7.4f  (real part %7.4f)  %lld gaps;  L2P by split", method.name.c_str(),
-                mean.l2p, mean.l2q, mean.npss, mean.npss_real, static_cast<long long>(mean.num_gaps));
+    std::printf("  %-32s L2P %6.3f  L2Q %6.3f  NPSS %7.4f  (real part %7.4f)  %lld gaps;  L2P by split",
+                method.name.c_str(), mean.l2p, mean.l2q, mean.npss, mean.npss_real,
+                static_cast<long long>(mean.num_gaps));
     for (const auto& measures : method.measures) std::printf(" %.3f", measures.errors().l2p);
     std::printf("\n");
   }
@@ -88,9 +92,12 @@ void measure(const std::filesystem::path& folder) {
   std::printf("%s at 30 frames/s: %zu clips, %zu held out in each of %d splits; %lld frames before and after\n",
               dance.name.c_str(), clips.size(), splits[0].held_out.size(), kSplits, static_cast<long long>(kContext));
   for (const Index gap : {5, 15, 30, 45}) {
-    std::vector<Method> methods{{"zero velocity", {}},         {"interpolation", {}},
-                                {"motex, lively", {}},         {"motex, lively, feet not held", {}},
-                                {"motex, mean", {}},           {"motex, lively, one frame after", {}},
+    std::vector<Method> methods{{"zero velocity", {}},
+                                {"interpolation", {}},
+                                {"motex, lively", {}},
+                                {"motex, lively, feet not held", {}},
+                                {"motex, mean", {}},
+                                {"motex, lively, one frame after", {}},
                                 {"motex, mean, one frame after", {}}};
     for (int i = 0; i < kSplits; ++i)
       fill_gaps(splits[static_cast<std::size_t>(i)], models[static_cast<std::size_t>(i)], gap, methods);

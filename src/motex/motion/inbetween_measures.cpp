@@ -92,8 +92,7 @@ Vector window_position_deviations(std::span<const Clip> clips, int travelling_jo
   for (const Clip& clip : clips) {
     if (sum.size() == 0) sum = squares = Vector::Zero(3 * clip.skeleton.num_joints());
     for (Index first = 0; first + kWindow <= clip.num_frames(); first += kStep) {
-      const WorldPoses poses =
-          world_poses(clip, first, kWindow, placing_of(clip, first + kPlacedBy, travelling_joint));
+      const WorldPoses poses = world_poses(clip, first, kWindow, placing_of(clip, first + kPlacedBy, travelling_joint));
       sum += poses.positions.colwise().sum().transpose();
       squares += poses.positions.colwise().squaredNorm().transpose();
       count += kWindow;

@@ -11,8 +11,8 @@ namespace motex {
 /// How far in-between frames lie from what was there: the measures of LaFAN1 [Harvey et al. 2020]. Joints alone, in the
 /// world, without end sites; means over all frames of all gaps.
 struct InbetweenErrors {
-  double l2p = 0;        ///< ‖(p̂ − p)/σ‖ over all coordinates of all joints of a frame
-  double l2q = 0;        ///< ‖q̂ − q‖ over the world quaternions of all joints of a frame, q̂ with the sign nearer to q
+  double l2p = 0;  ///< ‖(p̂ − p)/σ‖ over all coordinates of all joints of a frame
+  double l2q = 0;  ///< ‖q̂ − q‖ over the world quaternions of all joints of a frame, q̂ with the sign nearer to q
   double npss = 0;       ///< Σ |cumulated difference of normalised power spectra| of q's series, weighted by its power
   double npss_real = 0;  ///< the same with (Re F)² for the power |F|², as the published program has it
   Index num_gaps = 0;
@@ -27,9 +27,9 @@ class InbetweenMeasures {
  public:
   InbetweenMeasures(Vector position_deviations, int travelling_joint);
 
-  /// truth: a clip; made: frames first … first + made.num_frames() − 1 of it as somebody filled them in, in the world of
-  /// truth. Both are turned so that frame first − 1 of truth has heading 0. Throws InvalidInput for a gap that is not
-  /// inside truth or has another skeleton.
+  /// truth: a clip; made: frames first … first + made.num_frames() − 1 of it as somebody filled them in, in the world
+  /// of truth. Both are turned so that frame first − 1 of truth has heading 0. Throws InvalidInput for a gap that is
+  /// not inside truth or has another skeleton.
   void add(const Clip& truth, const Clip& made, Index first);
   InbetweenErrors errors() const;
 

@@ -125,8 +125,7 @@ struct GapExamples::State {
 
   void describe_rows() {
     const Subspace& space = model.global_subspace;
-    const FrameMatrix states =
-        (model.corpus.cast<double>().rowwise() - space.mean.transpose()) * space.basis;
+    const FrameMatrix states = (model.corpus.cast<double>().rowwise() - space.mean.transpose()) * space.basis;
     seen.resize(static_cast<Index>(rows.size()), num_seen());
     FrameMatrix before(static_cast<Index>(before_lags.size()), states.cols()),
         after(static_cast<Index>(after_lags.size()), states.cols());
@@ -157,8 +156,7 @@ struct GapExamples::State {
   Vector squared_distances(const Vector& standardised) const {
     const Vector squares = scale.cwiseAbs2();
     Vector out(seen.rows());
-    for (Index k = 0; k < seen.rows(); ++k)
-      out[k] = (seen.row(k).transpose() - standardised).cwiseAbs2().dot(squares);
+    for (Index k = 0; k < seen.rows(); ++k) out[k] = (seen.row(k).transpose() - standardised).cwiseAbs2().dot(squares);
     return out;
   }
 

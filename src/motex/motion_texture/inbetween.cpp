@@ -58,8 +58,8 @@ FrameMatrix cubic(Index n, const Eigen::RowVectorXd& first, const Eigen::RowVect
   return out;
 }
 
-/// Features and root of the frames beside the gap as GapPath has them; rows −1, 0 and n + 1, n + 2 are set. Where a side
-/// is a single pose its neighbour moves as `path` does.
+/// Features and root of the frames beside the gap as GapPath has them; rows −1, 0 and n + 1, n + 2 are set. Where a
+/// side is a single pose its neighbour moves as `path` does.
 GapPath ends_of(const FeatureSpace& space, const Side& before, const Side& after, const RootStep& step,
                 const GapPath& path) {
   const Index length = path.features.rows();

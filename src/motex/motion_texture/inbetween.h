@@ -28,9 +28,8 @@ struct InbetweenOptions {
                 "examples, with the least error"},
           self.aim, Choices{{"lively", "mean"}});
     visit(Field{"context", "s", "how much before and after the gap is looked at"}, self.context, Range{0.01, 2});
-    visit(Field{"place_end", "",
-                "the end stands where its clip says; without: where the motion leads"},
-          self.place_end, Range{});
+    visit(Field{"place_end", "", "the end stands where its clip says; without: where the motion leads"}, self.place_end,
+          Range{});
     visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
   }
 };
@@ -44,8 +43,8 @@ struct FollowedExample {
 
 struct InbetweenReport {
   std::vector<FollowedExample> followed;  ///< nearest first
-  double distance = 0;     ///< cm, root mean square over what is seen of the gap, to the nearest example
-  RootPlace end;           ///< where the frame after the gap stands
+  double distance = 0;                    ///< cm, root mean square over what is seen of the gap, to the nearest example
+  RootPlace end;                          ///< where the frame after the gap stands
 };
 
 /// Fills gaps of one length. Body and root lead from the two frames before the gap into the two frames after it without
