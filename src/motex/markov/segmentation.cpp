@@ -30,6 +30,11 @@ double start_density(const SegmentationInput& input, Index frame) {
   return input.start_log_density.empty() ? 0 : input.start_log_density[static_cast<std::size_t>(frame)];
 }
 
+double start_density(const SegmentationInput& input, Index frame, int state) {
+  const auto& own = input.state_start_log_density;
+  return start_density(input, frame) + (own.size() == 0 ? 0 : static_cast<double>(own(frame, state)));
+}
+
 [[noreturn]] void throw_not_a_density(const char* what, Index frame) {
   throw NumericalFailure("segmentation: " + std::string(what) + " at frame " + std::to_string(frame) +
                          " is NaN or +infinity; a log-likelihood is a number or -infinity");
@@ -205,13 +210,20 @@ void Recursion::find_best_uncounted(Index b) {
   best_uncounted_[static_cast<std::size_t>(b)] = {best, static_cast<std::int32_t>(l)};
 }
 
-// E_i(b) + init(b) − S_i(b+s−1), once that sum is known.
+// E_i(b) + init(b) + init_i(b) − S_i(b+s−1), once that sum is known.
 void Recursion::open_candidates(Index b) {
   const double init = start_density(input_, b);
   if (!(init < std::numeric_limits<double>::infinity())) throw_not_a_density("the start density", b);
   double* __restrict row = candidates(b);
   const double* __restrict S = sums_.data();
   for (Index i = 0; i < num_states_; ++i) row[i] = row[i] + init - S[i];
+  const auto& own_init = input_.state_start_log_density;
+  if (own_init.size() == 0) return;
+  const float* __restrict own = own_init.data() + b * own_init.outerStride();
+  for (Index i = 0; i < num_states_; ++i) {
+    if (!(own[i] <= kLargestFloat)) throw_not_a_density("the start density of a state", b);
+    row[i] += static_cast<double>(own[i]);
+  }
 }
 
 void Recursion::add_frame(Index t) {
@@ -302,6 +314,11 @@ void check_segmentation_input(const SegmentationInput& input) {
     fail(std::to_string(T) + " frames of emissions, but " + std::to_string(input.start_log_density.size()) +
          " start densities");
   }
+  const auto& own = input.state_start_log_density;
+  if (own.size() > 0 && (own.rows() != T || own.cols() != N)) {
+    fail("start densities of states for " + std::to_string(own.rows()) + " frames and " + std::to_string(own.cols()) +
+         " states, but " + std::to_string(T) + " and " + std::to_string(N) + " in the emissions");
+  }
   if (T <= options.num_start_frames) {
     fail("a sequence of " + std::to_string(T) + " frames is too short; it needs at least " +
          std::to_string(options.num_start_frames + 1));
@@ -316,7 +333,7 @@ SegmentationReport segment_sequence(const SegmentationInput& input) {
 }
 
 double segment_score(const SegmentationInput& input, const Segment& segment) {
-  return start_density(input, segment.start) + sum_scored_frames(input, segment);
+  return start_density(input, segment.start, segment.state) + sum_scored_frames(input, segment);
 }
 
 double score_segmentation(const SegmentationInput& input, std::span<const Segment> segments) {

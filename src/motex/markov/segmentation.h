@@ -35,6 +35,9 @@ struct SegmentationInput {
   std::span<const double> start_log_density;
   const TransitionMatrix& transitions;
   SegmentOptions options = {};
+  /// init_i(b), T × N: what a segment of state i that starts at frame b adds besides init(b). Empty = 0. −∞ = i does
+  /// not start there.
+  Eigen::Ref<const FrameMatrixF> state_start_log_density = FrameMatrixF();
 };
 
 struct SegmentationReport {
@@ -45,14 +48,14 @@ struct SegmentationReport {
 
 /// The segmentation of largest score [MT02 appendix A; docs/papers/motion-texture.md],
 ///
-///   score = Σ_k [ init(b_k) + Σ_{t = b_k + s}^{e_k} F_{l_k}(t) ] + Σ_{k ≥ 2} log M_{l_{k−1} l_k},
+///   score = Σ_k [ init(b_k) + init_{l_k}(b_k) + Σ_{t = b_k + s}^{e_k} F_{l_k}(t) ] + Σ_{k ≥ 2} log M_{l_{k−1} l_k},
 ///
 /// over all segments [b_k, e_k] with T_min ≤ length ≤ T_max that cover the sequence without gap, and all labels l_k.
 /// The first label is free. Exact: a semi-Markov Viterbi recursion. With prefix sums S_i(t) = Σ_{u ≤ t} F_i(u)
 ///
 ///   E_i(b) = max_l [G_l(b−1) + log M_li],  E_i(0) = 0              best end just before a segment of i that starts at
-///   b H_i(t) = max_b [E_i(b) + init(b) − S_i(b+s−1)],  t − T_max < b ≤ t − T_min + 1 G_i(t) = S_i(t) + H_i(t) best
-///   segmentation of 0 … t that ends in i
+///   b H_i(t) = max_b [E_i(b) + init(b) + init_i(b) − S_i(b+s−1)],  t − T_max < b ≤ t − T_min + 1 G_i(t) = S_i(t) +
+///   H_i(t) best segmentation of 0 … t that ends in i
 ///
 /// A sequence shorter than T_min is one segment, the only case in which a segment is shorter. When lengths in
 /// T_min … T_max cannot add up to T, or impossible frames and transitions leave nothing, the report is infeasible:
@@ -63,7 +66,7 @@ struct SegmentationReport {
 /// that do not match, T ≤ s, options out of range) and NumericalFailure (NaN or +∞).
 SegmentationReport segment_sequence(const SegmentationInput& input);
 
-/// init(b) + Σ F of one segment, without transitions. The segment must lie inside the sequence.
+/// init(b) + init_i(b) + Σ F of one segment, without transitions. The segment must lie inside the sequence.
 double segment_score(const SegmentationInput& input, const Segment& segment);
 
 /// The score that segment_sequence() maximises, of given segments. InvalidInput when they break its rules: a gap, a

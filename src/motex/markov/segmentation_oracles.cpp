@@ -25,6 +25,7 @@ void for_each_end(const SegmentationInput& input, Index b, int state, double bef
   const Index shortest = std::min(options.min_length, T);
   const Index last = options.max_length > 0 ? std::min(T, b + options.max_length) : T;
   double score = before + (input.start_log_density.empty() ? 0 : input.start_log_density[static_cast<std::size_t>(b)]);
+  if (input.state_start_log_density.size() > 0) score += static_cast<double>(input.state_start_log_density(b, state));
   for (Index t = b; t < last; ++t) {
     if (t >= b + options.num_start_frames) score += static_cast<double>(input.emissions(t, state));
     if (t - b + 1 >= shortest) visit(t, score);

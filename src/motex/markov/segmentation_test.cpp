@@ -21,12 +21,14 @@ struct Shape {
   double prior_count;
   SegmentOptions options;
   double impossible = 0;  // share of emissions that are −∞
+  bool state_starts = false;
 };
 
 // Emissions follow a hidden label that changes now and then, so that the best path is not trivial.
 struct Problem {
   FrameMatrixF emissions;
   std::vector<double> start;
+  FrameMatrixF state_start;
   TransitionMatrix transitions;
   SegmentOptions options;
 
@@ -49,8 +51,12 @@ struct Problem {
       const int from = static_cast<int>(rng.below(n)), to = static_cast<int>(rng.below(n));
       transitions.add_count(from, to, rng.uniform(0.1, 3));
     }
+    if (!shape.state_starts) return;
+    state_start.resize(shape.frames, shape.states);
+    for (float& init : state_start.reshaped())
+      init = rng.uniform() < 0.2 ? -std::numeric_limits<float>::infinity() : static_cast<float>(10 * rng.normal());
   }
-  SegmentationInput input() const { return {emissions, start, transitions, options}; }
+  SegmentationInput input() const { return {emissions, start, transitions, options, state_start}; }
 };
 
 void expect_close(double a, double b) {
@@ -115,6 +121,20 @@ TEST(Segmentation, EqualsBruteForceOn2000Frames) {
   }
 }
 
+TEST(Segmentation, EqualsBruteForceWithStartsThatDependOnTheState) {
+  for (const Index max_length : {0, 130})
+    for (const Index num_start_frames : {0, 2})
+      expect_equal_to_brute_force({1000, 7, 1, {30, max_length, num_start_frames}, 0, true}, 9);
+}
+
+TEST(Segmentation, StartsOfStatesMustFit) {
+  Problem problem({50, 3, 1, {5, 20, 2}, 0, true}, 1);
+  problem.state_start(7, 1) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(segment_sequence(problem.input()), NumericalFailure);
+  problem.state_start.resize(50, 2);
+  EXPECT_THROW(segment_sequence(problem.input()), InvalidInput);
+}
+
 TEST(Segmentation, EqualsBruteForceInManySmallProblems) {
   Rng rng(5);
   int num_infeasible = 0;
@@ -125,6 +145,7 @@ TEST(Segmentation, EqualsBruteForceInManySmallProblems) {
     shape.options.num_start_frames = std::min<Index>(upto(4), shape.options.min_length);
     if (rng.uniform() < 0.6) shape.options.max_length = shape.options.min_length + upto(12);
     if (rng.uniform() < 0.5) shape.impossible = rng.uniform() < 0.5 ? 0.02 : 0.2;
+    shape.state_starts = seed % 3 == 0;
     expect_equal_to_brute_force(shape, seed);
     const Problem problem(shape, seed);
     num_infeasible += segment_sequence(problem.input()).is_feasible() ? 0 : 1;
