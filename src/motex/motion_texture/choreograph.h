@@ -42,17 +42,21 @@ struct ChoreographyRequest {
   std::optional<PosePair> first_two, last_two;  ///< instead of `start`, of `end`
   Index num_frames = 0;                         ///< N
   std::vector<Via> via;                         ///< by rising output frame
+  std::vector<RootTarget> at;                   ///< where the root is, and which way it looks, at some frames
+  std::vector<FloorBox> avoid;                  ///< what the root goes around
   std::optional<RootPlace> place;               ///< of output frame 0; where the start frame stands when not given
 };
 
 struct ChoreographyOptions : PlayOptions {
   double stretch = 0.15;
+  BendPathOptions path;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     PlayOptions::visit_fields(self, visit);
     visit(Field{"stretch", "", "how much longer or shorter than itself an example may be played"}, self.stretch,
           Range{0, 1});
+    BendPathOptions::visit_fields(self.path, visit);
   }
 };
 
@@ -72,6 +76,8 @@ struct ChoreographyReport {
   double cost = 0;            ///< what was minimised (ChoreographyPlanner)
   double start_distance = 0;  ///< cm from the start poses to those of the example that begins there
   double end_distance = 0;    ///< cm from the end poses to those of the example that ends there
+  double start_from_model = 0, end_from_model = 0;  ///< cm from poses that are not in the model to the nearest that are
+  BendPathReport path;                              ///< how the way of the root was bent to places and around boxes
 };
 
 /// A dance from pose to pose in exactly N frames [MT02 5.2, Figure 1]. Body pose, tilt and height of the first two and

@@ -28,6 +28,13 @@ double pose_distance(const MotionTexture& model, const FrameMatrix& poses, Index
   return std::sqrt(0.5 * (poses - model.corpus.middleRows(row, 2).cast<double>()).squaredNorm());
 }
 
+double distance_from_model(const MotionTexture& model, const FrameMatrix& poses) {
+  double least = kNever;
+  for (const Run& run : model.runs)
+    for (Index r = run.row; r + 2 <= run.row + run.length; ++r) least = std::min(least, pose_distance(model, poses, r));
+  return least;
+}
+
 double pace_cost(Index source_length, Index length, double stretch) {
   if (length == source_length) return 0;
   const double ratio =

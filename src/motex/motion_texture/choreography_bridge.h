@@ -24,6 +24,7 @@ struct PlanRequest {
   Index num_frames = 2;  ///< N, both pairs included
   double stretch = 0.15;
   double nearness = 1;
+  std::uint64_t variation = 0;  ///< not 0: another way; every example costs up to some transitions more, by this seed
 };
 
 /// An example and how it is played: between which poses, in how many frames.
@@ -57,6 +58,9 @@ inline const double kJumpCost = std::log(1.3 / 0.3);
 double pace_cost(Index source_length, Index length, double stretch);
 /// Distance in cm (root mean square over the two frames) of poses, 2 × D, from those at a corpus row.
 double pose_distance(const MotionTexture& model, const FrameMatrix& poses, Index row);
+
+/// Least of them over all rows.
+double distance_from_model(const MotionTexture& model, const FrameMatrix& poses);
 
 /// One stretch of example frames r … r + n − 1, wherever it begins, played in N frames and bent to the wanted poses at
 /// both ends: what is left where N is shorter than any texton. Costs

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "motex/core/rng.h"
 #include "motex/motion_texture/jumps.h"
 
 namespace motex {
@@ -15,6 +16,7 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostFollowers = 24, kLeastPredecessors = 4;
 constexpr double kMostCells = 1e8;
+constexpr double kVariation = 6;
 constexpr double kRepeatCost = 2;  // of an example that follows itself: what is likeliest must not stand still
 
 std::size_t at(int instance) { return static_cast<std::size_t>(instance); }
@@ -50,6 +52,7 @@ struct ChoreographyPlanner::Search {
     bool is_exit = false;  ///< the beginning of the instance that holds the end frame; else `node` in full, bent
     Index length = 0;      ///< of the exit; 2: nothing of it is played
   };
+  void draw_extra_costs();
   void prepare_rest();
   void prepare_exit();
   Finish finish(Index frames) const;
@@ -85,6 +88,7 @@ struct ChoreographyPlanner::Search {
   bool rest_is_exit_ = false;  ///< start and end lie in one instance
   int exit_instance_ = -1;
   std::vector<Source> sources_;
+  std::vector<double> extra_;  ///< by instance: PlanRequest::variation
   std::vector<double> begun_, done_;
 };
 
@@ -101,12 +105,20 @@ ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const Ed
       rest_(static_cast<int>(model_.instances.size())) {
   for (const Instance& a : model_.instances)
     sources_.push_back(stretched(a.row, hand_over_row(model_, a) + 2 - a.row, wanted.stretch, min_frames_));
+  draw_extra_costs();
   prepare_rest();
   prepare_exit();
   if (static_cast<double>(width_) * static_cast<double>(sources_.size()) > kMostCells)
     throw InvalidInput("planning " + std::to_string(wanted.num_frames) + " frames over " +
                        std::to_string(model_.instances.size()) +
                        " examples at once takes too much memory; divide the way by poses in between");
+}
+
+void ChoreographyPlanner::Search::draw_extra_costs() {
+  extra_.assign(model_.instances.size(), 0);
+  if (wanted_.variation == 0) return;
+  Rng rng(wanted_.variation);
+  for (double& extra : extra_) extra = kVariation * rng.uniform();
 }
 
 /// A rest too short to play goes on into the instance after it.
@@ -175,14 +187,14 @@ double ChoreographyPlanner::Search::best_predecessor(int node, Index frames, Edg
 void ChoreographyPlanner::Search::fill(const JobContext& job) {
   begun_.assign(width_ * sources_.size(), kNever);
   done_.assign(width_ * sources_.size(), kNever);
-  for (int b = 0; b < rest_; ++b) begun(b, 0) = kBend * bend_distance(b) / tau_ + kJumpCost;
+  for (int b = 0; b < rest_; ++b) begun(b, 0) = kBend * bend_distance(b) / tau_ + kJumpCost + extra_[at(b)];
   if (has_rest_) begun(rest_, 0) = 0;
   for (Index f = 1; f <= horizon_; ++f) {
     job.check_cancelled();
     Index length = 0;
     Edge edge;
     for (int node = 0; node <= rest_; ++node) done(node, f) = best_length(node, f, length);
-    for (int node = 0; node < rest_; ++node) begun(node, f) = best_predecessor(node, f, edge);
+    for (int node = 0; node < rest_; ++node) begun(node, f) = best_predecessor(node, f, edge) + extra_[at(node)];
   }
 }
 
@@ -238,6 +250,7 @@ Plan ChoreographyPlanner::Search::trace(Index frames) const {
     if (is_begun) {
       Edge edge;
       best_predecessor(node, now, edge);
+      plan.cost -= extra_[at(node)];
       plan.log_prob += edge.log_prob;
       distance_after = edge.distance;
       node = edge.from;
@@ -247,6 +260,7 @@ Plan ChoreographyPlanner::Search::trace(Index frames) const {
     add(node, source(node).row, source(node).length, length, now == length - 2);
     is_begun = true;
   }
+  if (is_begun && node != rest_) plan.cost -= extra_[at(node)];
   plan.start_distance = plan.segments.front().first_distance;
   return plan;
 }
@@ -334,14 +348,6 @@ void ChoreographyPlanner::throw_nearest(const PlanRequest& request, const Choreo
                            std::to_string(request.num_frames) + " frames; the nearest that works is " +
                            std::to_string(frames + 2) + " frames");
   throw InvalidInput("nothing in the model leads from these poses to those");
-}
-
-double ChoreographyPlanner::distance_from_model(const FrameMatrix& poses) const {
-  double least = kNever;
-  for (const Run& run : model_.runs)
-    for (Index r = run.row; r + 2 <= run.row + run.length; ++r)
-      least = std::min(least, pose_distance(model_, poses, r));
-  return least;
 }
 
 }  // namespace motex

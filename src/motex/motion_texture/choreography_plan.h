@@ -26,8 +26,6 @@ class ChoreographyPlanner {
  public:
   explicit ChoreographyPlanner(const MotionTexture& model);
   Plan plan(const PlanRequest& request, const JobContext& job = {}) const;
-  /// Distance in cm from poses to the nearest of the model.
-  double distance_from_model(const FrameMatrix& poses) const;
 
  private:
   struct Edge {

@@ -164,6 +164,16 @@ void travelling_pose(const FeatureSpace& space, const Above& above, const Clip& 
   q = above.rotation * clip.rotation(t, space.travelling_joint);
 }
 
+/// Takes the step and the turn of a frame.
+void move_on(const FeatureSpace& space, const double* features, RootPlace& place) {
+  const double* w = space.weights.data();
+  const double vx = features[0] / w[0], vz = features[1] / w[1];
+  const double c = std::cos(place.heading), s = std::sin(place.heading);
+  place.x += c * vx + s * vz;
+  place.z += -s * vx + c * vz;
+  place.heading += features[3] / w[3];
+}
+
 double mean_height(std::span<const Clip> clips, const FeatureSpace& space) {
   const Above above = above_travelling_joint(space);
   Vector3 position;
@@ -272,13 +282,7 @@ RootPlace root_place(const FeatureSpace& space, const Clip& clip, Index frame) {
 void decode_frame(const FeatureSpace& space, const double* features, bool first, RootPlace& place, Clip& out,
                   Index frame) {
   const double* w = space.weights.data();
-  if (!first) {
-    const double vx = features[0] / w[0], vz = features[1] / w[1];
-    const double c = std::cos(place.heading), s = std::sin(place.heading);
-    place.x += c * vx + s * vz;
-    place.z += -s * vx + c * vz;
-    place.heading += features[3] / w[3];
-  }
+  if (!first) move_on(space, features, place);
   const Quat world = heading_rotation(place.heading) * exp_map(Vector3(features[4] / w[4], 0, features[5] / w[5]));
   const Vector3 position(place.x, space.reference_height + features[2] / w[2], place.z);
   const int root = space.travelling_joint;
@@ -311,6 +315,26 @@ Clip decode(const FeatureSpace& space, const FrameMatrix& features, RootPlace st
   Clip out = make_held_clip(space, features.rows());
   for (Index t = 0; t < features.rows(); ++t) decode_frame(space, &features(t, 0), t == 0, start, out, t);
   return out;
+}
+
+RootPath root_path(const FeatureSpace& space, const FrameMatrix& features, RootPlace place) {
+  const Index frames = features.rows();
+  RootPath path{Vector(frames), Vector(frames), Vector(frames)};
+  for (Index t = 0; t < frames; ++t) {
+    if (t > 0) move_on(space, &features(t, 0), place);
+    path.x[t] = place.x, path.z[t] = place.z, path.heading[t] = place.heading;
+  }
+  return path;
+}
+
+void set_root_path(const FeatureSpace& space, const RootPath& path, FrameMatrix& features) {
+  for (Index t = 1; t < path.num_frames(); ++t) {
+    const Vector3 way(path.x[t] - path.x[t - 1], 0, path.z[t] - path.z[t - 1]);
+    const Vector3 step = heading_rotation(-path.heading[t - 1]) * way;
+    features(t, 0) = step.x() * space.weights[0];
+    features(t, 1) = step.z() * space.weights[1];
+    features(t, 3) = (path.heading[t] - path.heading[t - 1]) * space.weights[3];
+  }
 }
 
 }  // namespace motex

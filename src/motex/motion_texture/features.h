@@ -7,6 +7,7 @@
 
 #include "motex/core/job.h"
 #include "motex/motion/clip.h"
+#include "motex/motion/root_path.h"
 
 namespace motex {
 
@@ -60,5 +61,9 @@ Clip make_held_clip(const FeatureSpace& space, Index num_frames);
 
 /// All frames; the first stands at `start`.
 Clip decode(const FeatureSpace& space, const FrameMatrix& features, RootPlace start = {});
+
+/// The way of features (frames × D) whose first frame stands at `start`, and back: steps and turns of a path.
+RootPath root_path(const FeatureSpace& space, const FrameMatrix& features, RootPlace start);
+void set_root_path(const FeatureSpace& space, const RootPath& path, FrameMatrix& features);
 
 }  // namespace motex
