@@ -10,6 +10,7 @@
 #include "motex/lds/pinned_path.h"
 #include "motex/motion/foot_fix.h"
 #include "motex/motion_texture/segment_synthesis.h"
+#include "motex/motion_texture/texton_stretch.h"
 
 namespace motex {
 namespace {
@@ -210,11 +211,9 @@ void warn_when_strained(const EditReport& report, const JobContext& job) {
 Clip edit_texton(const MotionTexture& model, int instance_idx, std::span<const PoseEdit> edits,
                  const EditOptions& options, EditReport& report, const JobContext& job) {
   check_options(options);
-  if (instance_idx < 0 || instance_idx >= static_cast<int>(model.instances.size()))
-    throw InvalidInput("there is no example " + std::to_string(instance_idx) + "; the model has 0 … " +
-                       std::to_string(model.instances.size() - 1));
+  check_instance(model, instance_idx);
   const Instance& instance = model.instances[static_cast<std::size_t>(instance_idx)];
-  SynthesizeOptions synthesis;
+  PlayOptions synthesis;
   synthesis.noise = options.noise > 0 ? options.noise : kNoNoise;
   synthesis.seed = options.seed;
   const Index end = instance.row + instance.length - 2;

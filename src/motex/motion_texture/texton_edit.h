@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "motex/core/job.h"
-#include "motex/motion_texture/synthesize.h"
+#include "motex/motion_texture/model.h"
 
 namespace motex {
 

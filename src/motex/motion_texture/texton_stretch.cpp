@@ -119,7 +119,7 @@ void Stretcher::gather(int instance_idx) {
 }
 
 SegmentSynthesis Stretcher::segments(NoiseSource source) const {
-  SynthesizeOptions synthesis;
+  PlayOptions synthesis;
   synthesis.noise = options_.noise;
   synthesis.noise_source = source;
   synthesis.seed = options_.seed;
@@ -263,8 +263,15 @@ Clip Stretcher::revisit(StretchReport& report, const JobContext& job) const {
 
 }  // namespace
 
+void check_instance(const MotionTexture& model, int instance) {
+  if (instance < 0 || instance >= static_cast<int>(model.instances.size()))
+    throw InvalidInput("there is no example " + std::to_string(instance) + "; the model has 0 … " +
+                       std::to_string(model.instances.size() - 1));
+}
+
 Clip example_clip(const MotionTexture& model, int instance) {
-  const Instance& a = model.instances.at(static_cast<std::size_t>(instance));
+  check_instance(model, instance);
+  const Instance& a = model.instances[static_cast<std::size_t>(instance)];
   Clip clip = decode(model.features, model.corpus.middleRows(a.row, a.length).cast<double>(), a.place);
   clip.name = "example";
   return clip;
@@ -277,9 +284,7 @@ double mean_joint_speed(const Clip& clip) {
 Clip stretch_texton(const MotionTexture& model, int instance, Index num_frames, const StretchOptions& options,
                     StretchReport& report, const JobContext& job) {
   check_options(options);
-  if (instance < 0 || instance >= static_cast<int>(model.instances.size()))
-    throw InvalidInput("there is no example " + std::to_string(instance) + "; the model has 0 … " +
-                       std::to_string(model.instances.size() - 1));
+  check_instance(model, instance);
   const Index length = model.instances[static_cast<std::size_t>(instance)].length;
   if (num_frames < 4) throw InvalidInput("a texton needs at least 4 frames: its two first and its two last poses");
   if (static_cast<double>(num_frames) > kMostFactor * static_cast<double>(length))

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "motex/core/job.h"
-#include "motex/motion_texture/synthesize.h"
+#include "motex/motion_texture/model.h"
 
 namespace motex {
 
@@ -55,6 +55,9 @@ struct StretchReport {
 /// its length.
 Clip stretch_texton(const MotionTexture& model, int instance, Index num_frames, const StretchOptions& options,
                     StretchReport& report, const JobContext& job = {});
+
+/// Throws InvalidInput unless the model has that example.
+void check_instance(const MotionTexture& model, int instance);
 
 /// The example as it was learned from, where it stood.
 Clip example_clip(const MotionTexture& model, int instance);
