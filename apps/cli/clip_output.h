@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
+#include "motex/motion/adapt_clip.h"
 #include "motex/motion/clip.h"
 #include "motex/motion/markers.h"
 #include "motex/project/pose_pictures.h"
@@ -27,10 +29,20 @@ struct ClipPicture {
 /// Writes the clip as the extension says.
 void write_clip_output(const std::string& path, const Clip& clip, const ClipPicture& picture, Session& session);
 
+/// The flags of AdaptClipOptions under a heading of their own.
+void declare_adapt(Arguments& arguments, AdaptClipOptions& options);
+/// To be called before long work: throws InvalidInput where a format cannot take an option.
+void check_adapt(const AdaptClipOptions& options, const std::vector<std::string>& outputs);
+/// Adapts the clip and writes it to each path. Pages and pictures keep y up.
+void write_clip_outputs(const std::vector<std::string>& outputs, Clip clip, ClipPicture picture,
+                        const AdaptClipOptions& options, Session& session);
+
 /// The formats of markers and what they can be shown as.
 std::vector<std::string> marker_output_extensions();
 /// Writes the markers as the extension says.
 void write_marker_output(const std::string& path, const MarkerSet& markers, const ClipPicture& picture,
                          Session& session);
+void write_marker_outputs(const std::vector<std::string>& outputs, MarkerSet markers, const AdaptClipOptions& options,
+                          Session& session);
 
 }  // namespace motex::cli

@@ -37,6 +37,11 @@ double ratio_of_bones(const Skeleton& from, const Skeleton& to) {
 
 }  // namespace
 
+double metres_per_unit(LengthUnit unit) {
+  static constexpr double kMetres[] = {0, 1, 0.01, 0.001, 0.0254, 0.3048};
+  return kMetres[static_cast<std::size_t>(unit)];
+}
+
 void scale_lengths(Clip& clip, double factor) {
   for (Joint& joint : clip.skeleton.joints) joint.offset *= factor;
   for (EndSite& site : clip.skeleton.end_sites) site.offset *= factor;

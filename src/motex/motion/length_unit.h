@@ -7,6 +7,10 @@
 
 namespace motex {
 
+enum class LengthUnit { kAuto, kM, kCm, kMm, kInch, kFt };
+/// Metres of one unit; 0 for kAuto.
+double metres_per_unit(LengthUnit unit);
+
 /// Multiplies every length of the clip; metres_per_unit, where known, is divided.
 void scale_lengths(Clip& clip, double factor);
 

@@ -9,6 +9,7 @@
 
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
+#include "motex/motion/up_axis.h"
 #include "motex/motion_io/c3d.h"
 #include "motex/motion_io/npz.h"
 #include "motex/motion_io/text_scanner.h"
@@ -105,12 +106,7 @@ void apply_read_options(const ReadClipOptions& options, MarkerSet& markers) {
                          " leaves none of its " + std::to_string(markers.num_frames()) + " frames");
     markers = slice(markers, options.skip_frames, markers.num_frames() - options.skip_frames);
   }
-  if (options.up == UpAxis::kZ)
-    for (int m = 0; m < markers.num_markers(); ++m) {
-      const Eigen::VectorXd y = markers.positions.col(3 * m + 1);
-      markers.positions.col(3 * m + 1) = markers.positions.col(3 * m + 2);
-      markers.positions.col(3 * m + 2) = -y;
-    }
+  if (options.up == UpAxis::kZ) turn_z_up_to_y_up(markers);
   if (options.unit != LengthUnit::kAuto) markers.metres_per_unit = metres_per_unit(options.unit);
   if (options.resample > 0 && std::abs(options.resample * markers.frame_time_secs - 1) > 1e-9)
     markers = resample(markers, 1 / options.resample);

@@ -6,48 +6,9 @@
 #include <cmath>
 
 #include "motex/core/options_check.h"
+#include "motex/motion/up_axis.h"
 
 namespace motex {
-namespace {
-
-constexpr double kMetresPerUnit[] = {0, 1, 0.01, 0.001, 0.0254, 0.3048};
-
-// Every frame of reference turns −90° about x, so that the rest pose stands upright too: (x, y, z) → (x, z, −y).
-Vector3 turned(const Vector3& v) { return {v.x(), v.z(), -v.y()}; }
-
-Channel turned(Channel channel) {
-  switch (channel) {
-    case Channel::kYPosition:
-      return Channel::kZPosition;
-    case Channel::kZPosition:
-      return Channel::kYPosition;
-    case Channel::kYRotation:
-      return Channel::kZRotation;
-    case Channel::kZRotation:
-      return Channel::kYRotation;
-    default:
-      return channel;
-  }
-}
-
-void turn_z_up_to_y_up(Clip& clip) {
-  for (EndSite& site : clip.skeleton.end_sites) site.offset = turned(site.offset);
-  for (int j = 0; j < clip.skeleton.num_joints(); ++j) {
-    Joint& joint = clip.skeleton.joints[static_cast<std::size_t>(j)];
-    joint.offset = turned(joint.offset);
-    for (Channel& channel : joint.channels) channel = turned(channel);
-    for (Index t = 0; t < clip.num_frames(); ++t) {
-      const Quat q = clip.rotation(t, j);
-      clip.set_translation(t, j, turned(clip.translation(t, j)));
-      clip.set_rotation(t, j, Quat(q.w(), q.x(), q.z(), -q.y()));
-    }
-  }
-}
-
-}  // namespace
-
-double metres_per_unit(LengthUnit unit) { return kMetresPerUnit[static_cast<std::size_t>(unit)]; }
-
 void apply_read_options(const ReadClipOptions& options, Clip& clip) {
   check_options(options);
   if (options.skip_frames > 0) {
@@ -57,8 +18,7 @@ void apply_read_options(const ReadClipOptions& options, Clip& clip) {
     clip = slice(clip, options.skip_frames, clip.num_frames() - options.skip_frames);
   }
   if (options.up == UpAxis::kZ) turn_z_up_to_y_up(clip);
-  if (options.unit != LengthUnit::kAuto)
-    clip.skeleton.metres_per_unit = metres_per_unit(options.unit);
+  if (options.unit != LengthUnit::kAuto) clip.skeleton.metres_per_unit = metres_per_unit(options.unit);
   if (options.resample > 0 && std::abs(options.resample * clip.frame_time_secs - 1) > 1e-9)
     clip = resample(clip, 1 / options.resample);
 }

@@ -7,11 +7,11 @@
 #include "motex/core/job.h"
 #include "motex/core/options.h"
 #include "motex/motion/clip.h"
+#include "motex/motion/length_unit.h"
 
 namespace motex {
 
 enum class UpAxis { kAuto, kY, kZ };
-enum class LengthUnit { kAuto, kM, kCm, kMm, kInch, kFt };
 
 /// How a clip file is to be understood where it does not say, or says it wrongly.
 struct ReadClipOptions {
@@ -35,9 +35,6 @@ struct ReadClipOptions {
     visit(Field{"asf", "", "skeleton file of an AMC clip; empty = found beside it"}, self.asf, Range{});
   }
 };
-
-/// Metres of one unit; 0 for kAuto.
-double metres_per_unit(LengthUnit unit);
 
 /// Applies skip_frames, up, unit and resample to a clip as a reader of one format returned it (readers themselves apply
 /// fps only). up = z turns the whole clip −90° about x, rest pose and channel names included, so that z becomes y.
