@@ -38,23 +38,61 @@ ChoreographyRequest::Via parse_via(const std::string& text) {
   return {parse_clip_frame("--via", text.substr(0, colon)), frame};
 }
 
+/// Finite numbers between commas, `least` to `most` of them.
+std::vector<double> parse_numbers(const std::string& flag, const std::string& text, const std::string& form,
+                                  std::size_t least, std::size_t most) {
+  const std::vector<std::string> words = split_at_commas(text);
+  if (words.size() < least || words.size() > most) throw InvalidInput(flag + ": '" + text + "' is not " + form);
+  std::vector<double> numbers;
+  for (const std::string& word : words) {
+    parse_value(flag, word, numbers.emplace_back());
+    if (!std::isfinite(numbers.back())) throw InvalidInput(flag + ": '" + text + "' is not finite");
+  }
+  return numbers;
+}
+
+constexpr double kRadians = std::numbers::pi / 180;
+
 /// "x,z,heading", the heading in degrees.
 RootPlace parse_place(const std::string& text) {
-  const std::vector<std::string> words = split_at_commas(text);
-  if (words.size() != 3) throw InvalidInput("--place: '" + text + "' is not X,Z,HEADING");
-  RootPlace place;
-  double degrees = 0;
-  parse_value("--place", words[0], place.x);
-  parse_value("--place", words[1], place.z);
-  parse_value("--place", words[2], degrees);
-  if (!std::isfinite(place.x + place.z + degrees)) throw InvalidInput("--place: '" + text + "' is not finite");
-  place.heading = degrees * std::numbers::pi / 180;
-  return place;
+  const std::vector<double> numbers = parse_numbers("--place", text, "X,Z,HEADING", 3, 3);
+  return {numbers[0], numbers[1], numbers[2] * kRadians};
+}
+
+/// "300:150,40" or "300:150,40,90", the heading in degrees.
+RootTarget parse_at(const std::string& text) {
+  const std::string form = "N:X,Z[,HEADING]";
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw InvalidInput("--at: '" + text + "' is not " + form);
+  std::int64_t frame = 0;
+  parse_value("--at", text.substr(0, colon), frame);
+  const std::vector<double> numbers = parse_numbers("--at", text.substr(colon + 1), form, 2, 3);
+  RootTarget target{frame, numbers[0], numbers[1], {}};
+  if (numbers.size() == 3) target.heading = numbers[2] * kRadians;
+  return target;
+}
+
+/// "x0,z0,x1,z1".
+FloorBox parse_box(const std::string& text) {
+  const std::vector<double> numbers = parse_numbers("--avoid", text, "X0,Z0,X1,Z1", 4, 4);
+  return {numbers[0], numbers[1], numbers[2], numbers[3]};
+}
+
+/// "LeftHand@200:10,120,30".
+LimbTarget parse_reach(const std::string& text) {
+  const std::string form = "JOINT@N:X,Y,Z";
+  const std::size_t colon = text.rfind(':'), at = text.rfind('@', colon);
+  if (colon == std::string::npos || at == std::string::npos || at == 0)
+    throw InvalidInput("--reach: '" + text + "' is not " + form);
+  std::int64_t frame = 0;
+  parse_value("--reach", text.substr(at + 1, colon - at - 1), frame);
+  const std::vector<double> numbers = parse_numbers("--reach", text.substr(colon + 1), form, 3, 3);
+  return {text.substr(0, at), frame, Vector3(numbers[0], numbers[1], numbers[2])};
 }
 
 struct Choreograph {
   std::string model_path, start, end, place;
-  std::vector<std::string> outputs, via;
+  std::vector<std::string> outputs, via, at, avoid, reach;
   std::int64_t frames = 0;
   ChoreographyOptions options;
 
@@ -69,6 +107,12 @@ struct Choreograph {
                     via);
     arguments.value("--place", "X,Z,HEADING",
                     "where the first frame stands and looks, heading in degrees (default: as in its clip)", place);
+    arguments.value("--at", "N:X,Z[,HEADING]",
+                    "the root stands there, and looks that way (degrees), at output frame N; may be given again", at);
+    arguments.value("--avoid", "X0,Z0,X1,Z1", "a box on the floor that the root goes around; may be given again",
+                    avoid);
+    arguments.value("--reach", "JOINT@N:X,Y,Z", "that hand or foot is there at output frame N; may be given again",
+                    reach);
     arguments.section("How");
     arguments.options(options);
   }
@@ -96,6 +140,9 @@ struct Choreograph {
     request.end = parse_clip_frame("--end", end);
     request.num_frames = frames;
     for (const std::string& text : via) request.via.push_back(parse_via(text));
+    for (const std::string& text : at) request.at.push_back(parse_at(text));
+    for (const std::string& text : avoid) request.avoid.push_back(parse_box(text));
+    for (const std::string& text : reach) request.reach.push_back(parse_reach(text));
     if (!place.empty()) request.place = parse_place(place);
     return request;
   }
@@ -162,9 +209,34 @@ struct Choreograph {
     object["cost"] = report.cost;
     object["start_distance_cm"] = report.start_distance;
     object["end_distance_cm"] = report.end_distance;
+    if (!at.empty() || !avoid.empty()) object["root_path"] = path_value(report.path);
+    if (!reach.empty()) object["reached"] = reached_value(report);
+    object["frames_below_floor"] = std::int64_t{report.floor.num_below_after};
     object["options"] = options_value(options);
     object["secs"] = session.secs();
     return object;
+  }
+
+  static Value path_value(const BendPathReport& path) {
+    Value object;
+    object["cost"] = path.cost;
+    object["largest_turn_degrees"] = path.largest_turn / kRadians;
+    object["largest_shift"] = path.largest_shift;
+    object["way_ratio"] = path.way;
+    if (std::isfinite(path.clearance)) object["clearance"] = path.clearance;
+    return object;
+  }
+
+  Value reached_value(const ChoreographyReport& report) const {
+    Value list = Value::List();
+    for (std::size_t k = 0; k < reach.size(); ++k) {
+      Value entry;
+      entry["target"] = reach[k];
+      entry["distance_before"] = report.reached[k].distance_before;
+      entry["distance_after"] = report.reached[k].distance_after;
+      list.append(std::move(entry));
+    }
+    return list;
   }
 
   static std::string table(const MotionTexture& model, const ChoreographyReport& report) {
@@ -190,7 +262,9 @@ Command motion_choreograph() {
        "frames "
        "count from 0. Which examples are played, and how long each, is chosen together, so that the length is exact.",
        "motex motion choreograph dance.motex --start salsa_01@100 --end salsa_05@200 --frames 320 -o new.bvh\n"
-       "motex motion choreograph dance.motex --start a@10 --via b@50:200 --end a@400 --frames 500 -o new.glb"});
+       "motex motion choreograph dance.motex --start a@10 --via b@50:200 --end a@400 --frames 500 -o new.glb\n"
+       "motex motion choreograph dance.motex --start a@10 --end a@400 --frames 500 --place 0,0,0 --at 499:150,200,90 "
+       "--avoid 50,50,80,120 --reach LeftHand@250:80,140,100 -o new.bvh"});
 }
 
 }  // namespace motex::cli

@@ -90,7 +90,7 @@ void measure(const std::filesystem::path& folder) {
     motex::LearnOptions own;
     own.basis = motex::Basis::kOwn;
     motex::SynthesizeOptions as_solved;
-    as_solved.foot_fix = false;
+    as_solved.foot_fix = as_solved.floor_fix = false;
     const motex::MotionTexture model = motex::learn_motion_texture(dance.clips, {}, report);
     print_dances("default", model, dance.clips, {});
     print_dances("without foot pass", model, dance.clips, as_solved);

@@ -151,6 +151,8 @@ Clip choreograph(const MotionTexture& model, const ChoreographyRequest& request,
   Clip clip = decode(model.features, take.features, start);
   clip.name = "choreography";
   if (options.foot_fix && !model.feet.legs.empty()) fix_feet(clip, model.feet, {}, pinned);
+  if (options.floor_fix) report.floor = keep_above_floor(clip, model.feet, pinned);
+  report.reached = reach_targets(clip, request.reach, options.reach, pinned, job);
   warn_when_far(model, report, job);
   return clip;
 }

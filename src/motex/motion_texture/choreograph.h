@@ -8,6 +8,8 @@
 
 #include "motex/core/job.h"
 #include "motex/motion/clip.h"
+#include "motex/motion/floor.h"
+#include "motex/motion/limb_target.h"
 #include "motex/motion_texture/model.h"
 #include "motex/motion_texture/play_options.h"
 
@@ -44,12 +46,14 @@ struct ChoreographyRequest {
   std::vector<Via> via;                         ///< by rising output frame
   std::vector<RootTarget> at;                   ///< where the root is, and which way it looks, at some frames
   std::vector<FloorBox> avoid;                  ///< what the root goes around
+  std::vector<LimbTarget> reach;                ///< where hands or feet are at some frames
   std::optional<RootPlace> place;               ///< of output frame 0; where the start frame stands when not given
 };
 
 struct ChoreographyOptions : PlayOptions {
   double stretch = 0.15;
   BendPathOptions path;
+  ReachOptions reach;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -57,6 +61,7 @@ struct ChoreographyOptions : PlayOptions {
     visit(Field{"stretch", "", "how much longer or shorter than itself an example may be played"}, self.stretch,
           Range{0, 1});
     BendPathOptions::visit_fields(self.path, visit);
+    ReachOptions::visit_fields(self.reach, visit);
   }
 };
 
@@ -78,12 +83,16 @@ struct ChoreographyReport {
   double end_distance = 0;    ///< cm from the end poses to those of the example that ends there
   double start_from_model = 0, end_from_model = 0;  ///< cm from poses that are not in the model to the nearest that are
   BendPathReport path;                              ///< how the way of the root was bent to places and around boxes
+  FloorReport floor;
+  std::vector<ReachedTarget> reached;  ///< as ChoreographyRequest::reach
 };
 
 /// A dance from pose to pose in exactly N frames [MT02 5.2, Figure 1]. Body pose, tilt and height of the first two and
-/// last two frames, and of the frames of `via`, are those of the examples, also after planted feet were held. Warns
-/// where a pose is far from every example. Throws InvalidInput for a frame that does not exist, `via` out of order, or
-/// no way in that many frames, naming the nearest N.
+/// last two frames, and of the frames of `via`, are those of the examples, also after planted feet were held and the
+/// body kept above the floor. Where the root has places to be at or boxes to go around, 16 ways are planned, and the
+/// one is played in which the examples and the bending of their way (bend_root_path) together cost least. Warns where a
+/// pose is far from every example and where a limb misses its place. Throws InvalidInput for a frame that does not
+/// exist, `via` out of order, or no way in that many frames, naming the nearest N, or around the boxes.
 Clip choreograph(const MotionTexture& model, const ChoreographyRequest& request, const ChoreographyOptions& options,
                  ChoreographyReport& report, const JobContext& job = {});
 

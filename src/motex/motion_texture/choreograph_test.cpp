@@ -92,7 +92,7 @@ TEST(Choreograph, AFrameThatWasLeftOutNamesTheNearest) {
 
 TEST(Choreograph, HasExactlyTheFramesAskedFor) {
   ChoreographyOptions options;
-  options.foot_fix = false;
+  options.foot_fix = options.floor_fix = false;
   for (Index n = 130; n < 700; n += n < 200 ? 1 : 37) {
     ChoreographyReport report;
     const Clip dance = choreograph(model(), request(n), options, report);
@@ -127,7 +127,7 @@ TEST(Choreograph, MeetsTheFirstAndLastTwoFrames) {
 
 TEST(Choreograph, MeetsAnyPoseOfTheModel) {
   ChoreographyOptions options;
-  options.foot_fix = false;
+  options.foot_fix = options.floor_fix = false;
   for (Index start = 0; start <= 498; start += 83)
     for (Index end = 1; end <= 499; end += 83) {
       ChoreographyReport report;
@@ -154,7 +154,7 @@ TEST(Choreograph, AStretchOfTheSourceIsTheLikeliestDanceBetweenItsEnds) {
   ChoreographyRequest wanted = request(221, 100, 320);
   wanted.end.clip = "walk_0.bvh";
   ChoreographyOptions options;
-  options.foot_fix = false;
+  options.foot_fix = options.floor_fix = false;
   options.noise = 1e-9;
   ChoreographyReport report;
   const Clip dance = choreograph(model(), wanted, options, report);
@@ -172,7 +172,7 @@ TEST(Choreograph, TheSourceSlowerOrFasterGoesTheSameWay) {
     ChoreographyRequest wanted = request(n, 100, 320);
     wanted.end.clip = "walk_0.bvh";
     ChoreographyOptions options;
-    options.foot_fix = false;
+    options.foot_fix = options.floor_fix = false;
     options.noise = 1e-9;
     ChoreographyReport report;
     const Clip dance = choreograph(model(), wanted, options, report);

@@ -16,6 +16,7 @@ struct PlayOptions {
   NoiseSource noise_source = NoiseSource::kReplay;
   double nearness = 1;
   bool foot_fix = true;
+  bool floor_fix = true;
   std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
@@ -30,6 +31,7 @@ struct PlayOptions {
     visit(Field{"nearness", "", "how far an example's first poses may lie from those before, relative to the usual"},
           self.nearness, Range{0.01, 100});
     visit(Field{"foot_fix", "", "hold planted feet"}, self.foot_fix, Range{});
+    visit(Field{"floor_fix", "", "keep the body above the floor"}, self.floor_fix, Range{});
     visit(Field{"seed", "", "random seed"}, self.seed, Range{0, 1.8e19});
   }
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motex/core/options_check.h"
+#include "motex/motion/floor.h"
 #include "motex/motion_texture/instance_walk.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/segment_synthesis.h"
@@ -18,8 +19,10 @@ struct Synthesizer::State {
       : model(m),
         walk(m, options, std::move(path), endless),
         segments(m, options),
-        pose(make_held_clip(m.features, 1)) {
+        pose(make_held_clip(m.features, 1)),
+        standing_pose(pose) {
     if (options.foot_fix && !m.feet.legs.empty()) fixer.emplace(m.feet, m.features.skeleton, m.frame_time_secs());
+    if (options.floor_fix && !m.feet.legs.empty()) floor.emplace(m.feet, m.features.skeleton, m.frame_time_secs());
     coming = walk.next();
     if (coming >= 0) place = m.instances[static_cast<std::size_t>(coming)].place;
     advance();
@@ -47,15 +50,31 @@ struct Synthesizer::State {
     return true;
   }
 
+  /// The next frame with planted feet held.
+  bool stand(Clip& out, Index frame) {
+    if (!fixer) return make(out, frame);
+    while (!fixer->pop(out, frame)) {
+      if (is_over) return false;
+      if (make(pose, 0)) {
+        fixer->push(pose, 0);
+      } else {
+        fixer->finish();
+        is_over = true;
+      }
+    }
+    return true;
+  }
+
   const MotionTexture& model;
   InstanceWalk walk;
   SegmentSynthesis segments;
   std::optional<FootFixer> fixer;
-  Clip pose;
+  std::optional<FloorFixer> floor;
+  Clip pose, standing_pose;
   const FrameMatrix* features = nullptr;
   Index row = 0, end = 0, num_made = 0;
   int coming = -1;
-  bool is_over = false;
+  bool is_over = false, is_all_over = false;  ///< no more for fixer, for floor
   RootPlace place;
   PlayedTexton now;
   std::vector<PlayedTexton> begun;
@@ -71,14 +90,14 @@ Synthesizer::Synthesizer(Synthesizer&&) noexcept = default;
 
 bool Synthesizer::next(Clip& out, Index frame) {
   State& s = *state_;
-  if (!s.fixer) return s.make(out, frame);
-  while (!s.fixer->pop(out, frame)) {
-    if (s.is_over) return false;
-    if (s.make(s.pose, 0)) {
-      s.fixer->push(s.pose, 0);
+  if (!s.floor) return s.stand(out, frame);
+  while (!s.floor->pop(out, frame)) {
+    if (s.is_all_over) return false;
+    if (s.stand(s.standing_pose, 0)) {
+      s.floor->push(s.standing_pose, 0);
     } else {
-      s.fixer->finish();
-      s.is_over = true;
+      s.floor->finish();
+      s.is_all_over = true;
     }
   }
   return true;

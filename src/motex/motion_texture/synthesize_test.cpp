@@ -93,7 +93,7 @@ TEST(Synthesize, PathsArePlayedAsAsked) {
 
 TEST(Synthesize, PosesAtJoinsAreThoseOfTheExamples) {
   SynthesizeOptions options;
-  options.foot_fix = false;
+  options.foot_fix = options.floor_fix = false;
   SynthesizeReport report;
   const Clip clip = synthesize_motion(model(), 2000, {}, options, report);
   const FrameMatrix y = encode(model().features, clip);
