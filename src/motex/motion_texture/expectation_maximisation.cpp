@@ -25,13 +25,14 @@ bool same_segments(const std::vector<LabelledSegment>& a, const std::vector<Labe
 
 ExpectationMaximisation::ExpectationMaximisation(const Corpus& corpus, const TextonFitter& fitter,
                                                  const LearnOptions& options, Index min_frames, Index max_frames,
-                                                 Segmentation start)
+                                                 Segmentation start, const MovePaths* paths)
     : corpus_(corpus),
       fitter_(fitter),
       options_(options),
       min_frames_(min_frames),
       max_frames_(max_frames),
-      segments_(std::move(start)) {
+      segments_(std::move(start)),
+      paths_(paths) {
   int textons = 0;
   for (const LabelledSegment& segment : segments_) textons = std::max(textons, segment.texton + 1);
   fits_.resize(static_cast<std::size_t>(textons));
@@ -107,10 +108,21 @@ void ExpectationMaximisation::maximise(const JobContext& job) {
     bank_->set_texton(i, fitter_.is_shared() ? fitter_.shared() : fit.subspace, fit.dynamics);
   }
   if (!changed.empty()) bank_->evaluate(changed, emissions_, job);
+  if (paths_ != nullptr) fit_paths(own, job);
   transitions_ = TransitionMatrix(static_cast<int>(fits_.size()), options_.transition_prior);
   for (std::size_t k = 1; k < segments_.size(); ++k)
     if (segments_[k].run_idx == segments_[k - 1].run_idx)
       transitions_.add_count(segments_[k - 1].texton, segments_[k].texton);
+}
+
+void ExpectationMaximisation::fit_paths(const std::vector<std::vector<LabelledSegment>>& own, const JobContext& job) {
+  path_of_.clear();
+  for (const auto& segments : own) {
+    PathStatistics sum = paths_->nothing();
+    for (const LabelledSegment& segment : segments) sum += paths_->observe(segment.row);
+    path_of_.push_back(paths_->path(sum));
+  }
+  starts_ = paths_->start_densities(paths_->windows(), path_of_, job);
 }
 
 double ExpectationMaximisation::expect(const JobContext& job) {
@@ -122,7 +134,12 @@ double ExpectationMaximisation::expect(const JobContext& job) {
     job.check_cancelled();
     const auto i = static_cast<std::size_t>(r);
     const Run& run = corpus_.runs[i];
-    SegmentationReport report = segment_sequence({emissions_.middleRows(run.row, run.length), {}, transitions_, rules});
+    const Index rows = paths_ == nullptr ? 0 : run.length;
+    SegmentationReport report = segment_sequence({emissions_.middleRows(run.row, run.length),
+                                                  {},
+                                                  transitions_,
+                                                  rules,
+                                                  starts_.middleRows(paths_ == nullptr ? 0 : run.row, rows)});
     if (!report.is_feasible())
       throw InvalidInput("no lengths between min_duration and max_duration add up to a stretch of " +
                          std::to_string(run.length) + " frames");
@@ -137,6 +154,7 @@ double ExpectationMaximisation::expect(const JobContext& job) {
   segments_ = std::move(segments);
   double objective = std::accumulate(scores.begin(), scores.end(), 0.0) + transitions_.log_prior();
   for (const TextonFit& fit : fits_) objective += fit.log_prior;
+  for (const Vector& path : path_of_) objective += paths_->log_prior(path);
   return objective;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "motex/core/job.h"
+#include "motex/motion_texture/move_path.h"
 #include "motex/motion_texture/texton_fitter.h"
 
 namespace motex {
@@ -17,5 +18,11 @@ Segmentation greedy_segments(const Corpus& corpus, const TextonFitter& fitter, d
 /// piece is compared with the pieces whose residuals under the global system are sized most alike.
 Segmentation merged_segments(const Corpus& corpus, const TextonFitter& fitter, double threshold, Index min_frames,
                              const JobContext& job);
+
+/// Pieces of min_frames, merged by the log Bayes factor of their dynamics and of their paths together, best first:
+/// while it gains, and on until there are pieces_per_texton pieces a texton. Each piece is compared with those whose
+/// paths are most alike.
+Segmentation merged_moves(const Corpus& corpus, const TextonFitter& fitter, const MovePaths& paths,
+                          double pieces_per_texton, Index min_frames, const JobContext& job);
 
 }  // namespace motex

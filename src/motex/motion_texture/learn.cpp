@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "motex/core/options_check.h"
 #include "motex/markov/graph.h"
@@ -17,7 +18,8 @@ namespace motex {
 namespace {
 
 constexpr double kGreedyShare = 0.45;  // of the distance of two random poses
-constexpr double kSmallGain = 1e-5;    // nats per frame: EM has settled
+constexpr double kPiecesPerTexton = 4.8;
+constexpr double kSmallGain = 1e-5;  // nats per frame: EM has settled
 
 struct Durations {
   Index min_frames, max_frames;
@@ -38,7 +40,12 @@ bool starts_greedy(const LearnOptions& options) {
 }
 
 Segmentation first_segments(const Corpus& corpus, const TextonFitter& fitter, const LearnOptions& options,
-                            const Durations& limits, LearnReport& report, const JobContext& job) {
+                            const MovePaths* paths, const Durations& limits, LearnReport& report,
+                            const JobContext& job) {
+  if (!starts_greedy(options) && paths != nullptr) {
+    report.threshold = options.threshold > 0 ? options.threshold : kPiecesPerTexton;
+    return merged_moves(corpus, fitter, *paths, report.threshold, limits.min_frames, job);
+  }
   if (!starts_greedy(options)) {
     report.threshold = options.threshold;
     return merged_segments(corpus, fitter, options.threshold, limits.min_frames, job);
@@ -46,6 +53,14 @@ Segmentation first_segments(const Corpus& corpus, const TextonFitter& fitter, co
   report.threshold =
       options.threshold > 0 ? options.threshold : kGreedyShare * random_pose_distance(corpus, options.seed);
   return greedy_segments(corpus, fitter, report.threshold, limits.min_frames, limits.max_frames, job);
+}
+
+/// What textons are besides dynamics; none with own bases, without weight, or where nothing moves.
+std::optional<MovePaths> move_paths(const Corpus& corpus, const TextonFitter& fitter, const LearnOptions& options,
+                                    Index min_frames) {
+  if (!fitter.is_shared() || options.path_weight == 0) return std::nullopt;
+  MovePaths paths(fitter.shared_states(), corpus.runs, min_frames, options.path_weight);
+  return paths.size() > 0 ? std::optional(std::move(paths)) : std::nullopt;
 }
 
 void run_em(ExpectationMaximisation& em, const LearnOptions& options, Index frames, LearnReport& report,
@@ -110,8 +125,11 @@ MotionTexture learn_motion_texture(std::span<const Clip> clips, const LearnOptio
   Corpus corpus = make_corpus(model.features, clips, limits.min_frames, options.keep_glitches, job);
   job.progress("finding the subspace", 0.02);
   const TextonFitter fitter(corpus, options);
-  Segmentation start = first_segments(corpus, fitter, options, limits, report, job);
-  ExpectationMaximisation em(corpus, fitter, options, limits.min_frames, limits.max_frames, std::move(start));
+  const std::optional<MovePaths> paths = move_paths(corpus, fitter, options, limits.min_frames);
+  const MovePaths* path_of_moves = paths ? &*paths : nullptr;
+  Segmentation start = first_segments(corpus, fitter, options, path_of_moves, limits, report, job);
+  ExpectationMaximisation em(corpus, fitter, options, limits.min_frames, limits.max_frames, std::move(start),
+                             path_of_moves);
   run_em(em, options, corpus.features.rows(), report, job);
 
   keep_used_textons(em, fitter, model);

@@ -21,7 +21,7 @@ struct LearnReport {
   int state_size = 0;
   double threshold = 0;  ///< used
   /// The objective after every EM iteration, nats: log-likelihood of the frames and texton path
-  /// + log prior of the dynamics + log prior of the transition matrix. Never falls.
+  /// + log prior of the dynamics + log prior of the transition matrix + the moves' paths. Never falls.
   std::vector<double> objective;
   bool converged = false;
   int num_dead_ends = 0;         ///< textons without an observed successor, before jumps were added
@@ -41,10 +41,12 @@ struct RecognisedSegment {
   double log_likelihood_per_frame = 0;
 };
 
-/// The most likely segmentation of a clip that may be new to the model [MT02 appendix A].
+/// The most likely segmentation of a clip that may be new to the model [MT02 appendix A], by dynamics, transitions and,
+/// where the model was learned with them, the paths of moves.
 std::vector<RecognisedSegment> segment_clip(const MotionTexture& model, const Clip& clip);
 
-/// Nats per frame of the weighted feature vector. Counted are the frames that two good frames precede; glitches are
+/// Nats per frame of the weighted feature vector: a density of each frame given those before it, so the paths of moves,
+/// which look ahead, have no part in it. Counted are the frames that two good frames precede; glitches are
 /// left out as in learning.
 struct ScoreReport {
   double log_likelihood_per_frame = 0;             ///< of clips and their best texton path

@@ -16,6 +16,7 @@ struct LearnOptions {
   Basis basis = Basis::kShared;
   Init init = Init::kAuto;
   double threshold = 0;
+  double path_weight = 5;
   double min_duration = 1.0;
   double max_duration = 25.0 / 6;
   int state_size = 0;
@@ -32,12 +33,16 @@ struct LearnOptions {
           self.basis, Choices{{"shared", "own"}});
     visit(Field{"init", "",
                 "where learning starts: segments grown until they fit badly (greedy, the paper), or one-second "
-                "pieces merged while the Bayes factor gains (merge); auto: merge for shared, greedy for own"},
+                "pieces merged by likeness (merge); auto: merge for shared, greedy for own"},
           self.init, Choices{{"auto", "greedy", "merge"}});
-    visit(Field{"threshold", "cm or nats",
+    visit(Field{"threshold", "",
                 "greedy: largest mean error of a texton's open-loop prediction, cm (auto: 0.45 of "
-                "the distance of two random poses); merge: log Bayes factor that a merge must gain"},
+                "the distance of two random poses); merge: pieces a texton stands for on average (auto: 4.8), or "
+                "without paths the log Bayes factor that a merge must gain, nats (auto: 0)"},
           self.threshold, Range{1e-6, 1e6, true});
+    visit(Field{"path_weight", "",
+                "how much a texton is the path of a move and not only its dynamics (shared basis); 0: dynamics alone"},
+          self.path_weight, Range{0, 1000});
     visit(Field{"min_duration", "s", "shortest segment, T_min"}, self.min_duration, Range{0.1, 10});
     visit(Field{"max_duration", "s", "longest segment"}, self.max_duration, Range{0.2, 60});
     visit(Field{"state_size", "",

@@ -10,6 +10,7 @@
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
+#include "motex/motion_io/gltf_skin.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/project/model_chunks.h"
 
@@ -106,6 +107,7 @@ void write_skeleton(ArchiveWriter& out, const Skeleton& skeleton) {
   out.add("end_site_offsets", sites);
   const double unit[] = {skeleton.metres_per_unit};
   out.add("metres_per_unit", unit);
+  if (skeleton.skin) out.add("skin", skeleton.skin->glb);
 }
 
 Skeleton read_skeleton(const ArchiveReader& in) {
@@ -135,6 +137,7 @@ Skeleton read_skeleton(const ArchiveReader& in) {
   skeleton.metres_per_unit = in.doubles("metres_per_unit", 1)[0];
   if (!(skeleton.metres_per_unit >= 0)) in.fail("metres_per_unit is negative");
   check_skeleton(skeleton);
+  if (in.has("skin")) skeleton.skin = read_skin_bytes(in.text("skin"), "the model's skin");
   return skeleton;
 }
 
@@ -380,6 +383,7 @@ MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
   const ArchiveReader in(std::move(bytes), name, kKind, kNewestVersion);
   MotionTexture model;
   const std::string options = in.text("options");
+  model.options.path_weight = 0;  // of files from before there were paths of moves
   LearnOptions::visit_fields(model.options, OptionReader{options, in});
   check_options(model.options);
   model.features = read_features(in);
