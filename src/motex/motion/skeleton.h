@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "motex/motion/rotation.h"
+#include "motex/motion/skin.h"
 
 namespace motex {
 
@@ -34,6 +36,8 @@ struct Skeleton {
   std::vector<Joint> joints;
   std::vector<EndSite> end_sites;
   double metres_per_unit = 0;  ///< 0 = nobody knows
+  /// What covers these joints, where the file had it; null without. Its joints are found by name.
+  std::shared_ptr<const Skin> skin = nullptr;
 
   int num_joints() const { return static_cast<int>(joints.size()); }
   /// Index of the joint of that name, or −1.

@@ -24,6 +24,7 @@ Channel turned(Channel channel) {
 }
 
 void turn(Clip& clip, double sign) {
+  clip.skeleton.skin = nullptr;  // it was bound to other frames
   for (EndSite& site : clip.skeleton.end_sites) site.offset = turned(site.offset, sign);
   for (int j = 0; j < clip.skeleton.num_joints(); ++j) {
     Joint& joint = clip.skeleton.joints[static_cast<std::size_t>(j)];

@@ -10,6 +10,7 @@
 #include "motex/motion_io/asf_amc.h"
 #include "motex/motion_io/bvh.h"
 #include "motex/motion_io/gltf.h"
+#include "motex/motion_io/gltf_skin.h"
 #include "motex/motion_io/npz.h"
 #include "motex/motion_io/tables.h"
 #include "motex/motion_io/text_scanner.h"
@@ -141,7 +142,11 @@ void write_clip(const fs::path& path, const Clip& clip, const JobContext& job) {
   job.check_cancelled();
   const std::string extension = lower_extension(path);
   if (extension == ".bvh") write_bvh(path, clip);
-  if (extension == ".glb") write_glb(path, clip);
+  if (extension == ".glb") {
+    if (clip.skeleton.skin && !skin_fits(clip.skeleton))
+      job.warn(path.string() + ": the skin is left out: the skeleton lacks some of its joints");
+    write_glb(path, clip);
+  }
   if (extension == ".csv") write_csv(path, clip);
   if (extension == ".npz") write_npz(path, clip);
 }

@@ -111,6 +111,7 @@ std::uint64_t gltf_component_size(int component_type) {
     case 5122:
     case 5123:
       return 2;
+    case 5125:
     case 5126:
       return 4;
     default:
@@ -146,6 +147,9 @@ std::vector<double> decode_gltf_elements(std::string_view bytes, const GltfEleme
           break;
         case 5123:
           values.push_back(component<std::uint16_t>(at, 65535));
+          break;
+        case 5125:
+          values.push_back(component<std::uint32_t>(at, 0));
           break;
         default:
           values.push_back(component<float>(at, 0));

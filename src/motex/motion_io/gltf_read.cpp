@@ -7,6 +7,7 @@
 #include "motex/core/files.h"
 #include "motex/motion_io/gltf.h"
 #include "motex/motion_io/gltf_document.h"
+#include "motex/motion_io/gltf_skin.h"
 #include "motex/motion_io/text_scanner.h"
 
 namespace motex {
@@ -83,6 +84,14 @@ class GltfToClip {
       throw UnsupportedFile(name_ + ": only scales are animated; motex reads moving skeletons");
     choose_times();
     return build();
+  }
+
+  /// By node, as the joints of the skeleton are called.
+  std::vector<std::string> node_names() const {
+    std::vector<std::string> names(document_.nodes.size());
+    for (std::size_t n = 0; n < names.size(); ++n)
+      if (joint_of_[n] >= 0) names[n] = skeleton_.joints[at(joint_of_[n])].name;
+    return names;
   }
 
  private:
@@ -247,17 +256,26 @@ Clip GltfToClip::build() {
   return clip;
 }
 
+Clip convert(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
+             const ReadClipOptions& options, const JobContext& job) {
+  const GltfDocument document = parse_gltf(bytes, name, folder);
+  GltfToClip converter(document, name, bytes.size(), options, job);
+  Clip clip = converter.convert();
+  if (std::any_of(document.nodes.begin(), document.nodes.end(), [](const GltfNode& node) { return node.is_joint; }))
+    clip.skeleton.skin = extract_skin(bytes, name, folder, document, converter.node_names(), job);
+  return clip;
+}
+
 }  // namespace
 
 Clip read_gltf_bytes(std::string_view bytes, const std::string& name, const ReadClipOptions& options,
                      const JobContext& job) {
-  return GltfToClip(parse_gltf(bytes, name, {}), name, bytes.size(), options, job).convert();
+  return convert(bytes, name, {}, options, job);
 }
 
 Clip read_gltf(const std::filesystem::path& path, const ReadClipOptions& options, const JobContext& job) {
-  const std::string bytes = read_file(path);
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  return GltfToClip(parse_gltf(bytes, path.string(), folder), path.string(), bytes.size(), options, job).convert();
+  return convert(read_file(path), path.string(), folder, options, job);
 }
 
 }  // namespace motex
