@@ -75,6 +75,30 @@ class BadModels(CommandTest):
         self.fail_with(2, "motion", "synthesize", self.model(), "-o", out, "--path", "0,99999", saying="99999")
 
 
+    def test_textons_stretched_varied_and_edited(self):
+        model, out = self.model(), self.folder / "x.bvh"
+        for words, saying in [
+            (("stretch", "--texton", 99999, "--frames", 100), "99999"),
+            (("stretch", "--texton", 0, "--frames", 3), "4 frames"),
+            (("stretch", "--texton", 0, "--frames", 10**9), "50 times"),
+            (("stretch", "--frames", 100), "--texton"),
+            (("stretch", "--texton", 0, "--example", "a@3", "--frames", 100), "--texton"),
+            (("vary", "--example", "none@3"), "none"),
+            (("vary", "--example", "none"), "CLIP@FRAME"),
+            (("vary", "--texton", 0, "--noise", 0), "noise"),
+            (("edit", "--texton", 0), "nothing to edit"),
+            (("edit", "--texton", 0, "--turn", "20:head=0,30"), "X,Y,Z"),
+            (("edit", "--texton", 0, "--turn", "20head"), "JOINT"),
+            (("edit", "--texton", 0, "--turn", "20:haed=0,30,0"), "did you mean 'head'"),
+            (("edit", "--texton", 0, "--turn", "1:head=0,30,0"), "frame 1 cannot be edited"),
+            (("edit", "--texton", 0, "--set", "20:head=nan,0,0"), "head|finite|number"),
+            (("edit", "--texton", 0, "--turn", "20:head=0,9,0", "--set", "20:head=0,9,0"), "twice"),
+            (("edit", "--texton", 0, "--pose", "20=none.bvh@3"), "none"),
+        ]:
+            self.fail_with(2, "motion", words[0], model, *words[1:], "-o", out, saying=saying)
+            self.assertFalse(out.exists())
+
+
 class BadTargets(CommandTest):
     def synthesize_fails(self, code, target, *more, saying=".", **options):
         arguments = ("motion", "synthesize", self.model(), "-o", target, "--secs", 20, *more)

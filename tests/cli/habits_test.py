@@ -6,7 +6,7 @@ import unittest
 
 from command import CLIPS, CommandTest, run, write_cut
 
-COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "segment", "score", "compare", "features", "view", "convert"]
+COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert"]
 
 
 class Usage(CommandTest):
@@ -115,6 +115,22 @@ class Json(CommandTest):
             self.one_json_object("motion", "choreograph", model, *poses, "-o", out, "--seed", 2)
         self.assertEqual(outs[0].read_bytes(), outs[1].read_bytes())
         self.assertIn("Frames: 600", outs[0].read_text())
+
+    def test_stretch_vary_and_edit(self):
+        model, out = self.model(), self.folder / "x.bvh"
+        for words in [
+            ("stretch", "--frames", 150),
+            ("vary", "--noise", 0.5),
+            ("edit", "--turn", "20:head=0,30,0", "--raise", "25=-0.5", "--set", "30:tilt=5,0"),
+        ]:
+            value = self.one_json_object("motion", *words[:1], model, "--texton", 0, *words[1:], "-o", out, "--force")
+            self.has(value, "frames", "clip", "start", "texton", "instance", "seed", "options")
+            self.assertIn(f"Frames: {value['frames']}", out.read_text())
+            if words[0] == "stretch":
+                self.assertEqual(value["frames"], 150)
+                self.assertAlmostEqual(value["speed_ratio"], 1, delta=0.05)
+            if words[0] == "edit":
+                self.assertEqual([part["frames"] for part in value["parts"]], [[25], [30], [20]])
 
     def test_segment(self):
         self.one_json_object("motion", "segment", self.model(), CLIPS[0])

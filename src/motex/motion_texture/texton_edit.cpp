@@ -16,9 +16,14 @@ namespace motex {
 namespace {
 
 constexpr Index kHeight = 2, kTilt = 4, kRootChannels = 6;
-constexpr double kLargeStrain = 3, kNoNoise = 1e-12;
+constexpr double kLargeStrain = 5, kNoNoise = 1e-12;
 constexpr double kNothing = 1e-9;  // cm
-constexpr double kLeastPriorFrames = 300;
+constexpr double kPriorFrames = 300, kLeastMovement = 0.5;
+
+/// Rows of the corpus that follow one another.
+struct Stretch {
+  Index row = 0, length = 0;
+};
 
 /// Channels that are edited together.
 struct Part {
@@ -42,7 +47,8 @@ class Editor {
   void want_rotation(const PoseEdit& edit);
   void want_pose(const PoseEdit& edit);
   void want_vector(std::size_t joint, const Quat& relative, Index frame);
-  Lds dynamics(const Part& part) const;
+  std::vector<Stretch> all_runs() const;
+  Lds dynamics(const Part& part, const LdsPrior& body) const;
   bool moves_feet(Index first) const;
   Vector change_of(const Part& part, Index frame) const {
     return part.wanted.at(frame) - features_.row(frame).segment(part.first, part.count).transpose();
@@ -134,23 +140,45 @@ void Editor::add(const PoseEdit& edit) {
   }
 }
 
-/// The texton's dynamics as its own frames show them in these channels, with the corpus as prior.
-Lds Editor::dynamics(const Part& part) const {
-  const FrameMatrix channels = model_.corpus.middleCols(part.first, part.count).cast<double>();
-  LdsStatistics all(part.count), own(part.count);
-  for (const Run& run : model_.runs)
-    if (run.length > 2) all.add(channels, run.row + 2, run.length - 2);
-  for (const int i : model_.textons[static_cast<std::size_t>(instance_.texton)].instances) {
-    const Instance& example = model_.instances[static_cast<std::size_t>(i)];
-    if (example.length > 2) own.add(channels, example.row + 2, example.length - 2);
+/// Moments of single channels about their means, added up.
+LdsStatistics pooled(const MotionTexture& model, Index first, Index count, std::span<const Stretch> stretches) {
+  LdsStatistics sum(1);
+  for (Index c = first; c < first + count; ++c) {
+    const FrameMatrix channel = model.corpus.col(c).cast<double>();
+    LdsStatistics statistics(1);
+    for (const Stretch& s : stretches)
+      if (s.length > 2) statistics.add(channel, s.row + 2, s.length - 2);
+    const CentredMoments moments = centred(statistics);
+    sum.moments.topLeftCorner<3, 3>() += moments.scatter;
+    sum.moments(3, 3) += moments.count;
   }
-  Lds lds = fit_lds(own, make_prior(all, kLeastPriorFrames));
+  return sum;
+}
+
+std::vector<Stretch> Editor::all_runs() const {
+  std::vector<Stretch> all;
+  for (const Run& run : model_.runs) all.push_back({run.row, run.length});
+  return all;
+}
+
+/// Dynamics of one channel of the part, all its channels taken together, so that a change goes straight to where it is
+/// asked for. Prior: these channels in the whole corpus, and half a centimetre of what the whole body does, for parts
+/// that hardly move.
+Lds Editor::dynamics(const Part& part, const LdsPrior& body) const {
+  std::vector<Stretch> own;
+  for (const int i : model_.textons[static_cast<std::size_t>(instance_.texton)].instances)
+    own.push_back(
+        {model_.instances[static_cast<std::size_t>(i)].row, model_.instances[static_cast<std::size_t>(i)].length});
+  LdsPrior prior = make_prior(pooled(model_, part.first, part.count, all_runs()), kPriorFrames);
+  prior.covariance += kLeastMovement * kLeastMovement / body.covariance(0, 0) * body.covariance;
+  Lds lds = fit_lds(pooled(model_, part.first, part.count, own), prior);
   lds.offset.setZero();
   return lds;
 }
 
 FrameMatrix Editor::solve(EditReport& report) const {
   FrameMatrix out = features_;
+  LdsPrior body;
   const Index l = out.rows();
   for (const auto& [first, part] : parts_) {
     EditedPart edited{part.name, {}, 0, 0};
@@ -164,7 +192,15 @@ FrameMatrix Editor::solve(EditReport& report) const {
       edited.size = std::max(edited.size, change.row(frame).norm());
     }
     if (edited.size > kNothing) {
-      const double energy = least_noise_path(dynamics(part), pinned, change);
+      if (body.frames == 0)
+        body = make_prior(pooled(model_, kHeight, features_.cols() - kHeight, all_runs()), kPriorFrames);
+      const Lds lds = dynamics(part, body);
+      double energy = 0;
+      for (Index c = 0; c < part.count; ++c) {
+        FrameMatrix channel = change.col(c);
+        energy += least_noise_path(lds, pinned, channel);
+        change.col(c) = channel;
+      }
       edited.strain = std::sqrt(energy / static_cast<double>(part.count * std::ssize(part.wanted)));
       out.middleCols(first, part.count) += change;
       for (const auto& [frame, value] : part.wanted) out.row(frame).segment(first, part.count) = value.transpose();

@@ -59,14 +59,16 @@ struct EditReport {
 
 /// A texton with poses changed inside as hard constraints [MT02 6.2, Figure 11]. The motion is y = y₀ + Σ_j S_j e_j: y₀
 /// is the unedited one (SegmentSynthesis, same noise), S_j the channels of an edited part (a joint, the height, the
-/// tilt) and e_j its change: the mean path of the texton's second-order dynamics, fitted to those channels alone, from
-/// 0 at both ends through what was asked for. Edits are met to rounding, end frames and parts that are not edited do
+/// tilt) and e_j its change: the least-noise path, from 0 at both ends through what was asked for, of the second-order
+/// dynamics that the texton's frames show in these channels, one and the same for each: it goes straight to the edit,
+/// as fast as that part of the body moves here. Edits are met to rounding, end frames and parts that are not edited do
 /// not move, and an edit by nothing changes nothing. Projected into the texton's subspace, as in the paper, some 40 %
 /// of an edit would be lost or move other joints [docs/papers/motion-texture.md].
 ///
-/// Edits that need more noise than chance ever makes (strain > 3) are met all the same, with a warning. Frames of edits
-/// are not touched by the foot pass. Throws InvalidInput for a frame that does not exist or is one of the two at each
-/// end, a joint that has no channels, numbers that are not finite, or two edits of one part and frame.
+/// Edits that need more noise than chance ever makes (strain > 5) are met all the same, with a warning. The foot
+/// pass leaves frames alone where legs or what carries them were edited. Throws InvalidInput for a frame that does not
+/// exist or is one of the two at each end, a joint that has no channels, numbers that are not finite, or two edits of
+/// one part and frame.
 Clip edit_texton(const MotionTexture& model, int instance, std::span<const PoseEdit> edits, const EditOptions& options,
                  EditReport& report, const JobContext& job = {});
 

@@ -10,7 +10,7 @@
 namespace motex {
 
 struct VaryOptions {
-  double noise = 0.6;
+  double noise = 0.4;
   bool foot_fix = true;
   std::uint64_t seed = 1;
 
