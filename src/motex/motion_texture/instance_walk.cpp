@@ -17,6 +17,7 @@ constexpr double kPatience = 0.65;
 constexpr double kCuriosity = 6, kSteeredCuriosity = 2;
 constexpr double kFarthest = 1.25;  // τ
 constexpr std::size_t kMostFollowers = 24;
+constexpr double kMostRatio = 20;  // of a step's frequency as edited to that as learned
 constexpr double kBalanceSecs = 20, kMostBalance = 3;
 constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
 
@@ -82,10 +83,19 @@ double InstanceWalk::transition(int from, int to) const {
                                         model_.instances[static_cast<std::size_t>(to)].texton);
 }
 
-double InstanceWalk::fading(int instance) const {
-  if (model_.visit_ratios.empty()) return 0.5;
-  const int texton = model_.instances[static_cast<std::size_t>(instance)].texton;
-  return std::pow(0.5, 1 / model_.visit_ratios[static_cast<std::size_t>(texton)]);
+double InstanceWalk::preference(int from, int to) const {
+  if (model_.visit_ratios.empty()) return 1;
+  const double before = model_.unweighted.probability(model_.instances[static_cast<std::size_t>(from)].texton,
+                                                      model_.instances[static_cast<std::size_t>(to)].texton);
+  return before > 0 ? transition(from, to) / before : 1;
+}
+
+double InstanceWalk::fading(int from, int to) const {
+  if (model_.visit_ratios.empty() || from < 0) return 0.5;
+  const int texton = model_.instances[static_cast<std::size_t>(from)].texton;
+  const double r = model_.visit_ratios[static_cast<std::size_t>(texton)] * preference(from, to);
+  if (!(r > 0)) return 0.5;  // a forbidden step that a path asked for
+  return std::pow(0.5, 1 / std::clamp(r, 1 / kMostRatio, kMostRatio));
 }
 
 double InstanceWalk::distance(int from, int to) const {
@@ -106,12 +116,18 @@ std::vector<InstanceWalk::Follower> InstanceWalk::followers_of(int instance) con
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& x, const auto& y) { return x.distance < y.distance; });
-  if (key_poses_ == KeyPoses::kNearest && candidates.size() > kMostFollowers) candidates.resize(kMostFollowers);
   std::vector<Follower> out;
+  std::vector<bool> has_texton(model_.textons.size(), false);
+  const auto most = key_poses_ == KeyPoses::kNearest ? kMostFollowers : candidates.size();
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     const Candidate& c = candidates[k];
-    if (k >= 2 && c.distance > kFarthest * tau_) break;
-    out.push_back({c.instance, c.transition * std::exp(-(c.distance - candidates[0].distance) / tau_)});
+    const int texton = model_.instances[static_cast<std::size_t>(c.instance)].texton;
+    const bool is_near = k < most && (k < 2 || c.distance <= kFarthest * tau_);
+    if (!is_near && (has_texton[static_cast<std::size_t>(texton)] || preference(instance, c.instance) <= 1)) continue;
+    has_texton[static_cast<std::size_t>(texton)] = true;
+    const double farther = c.distance - candidates[0].distance;
+    out.push_back(
+        {c.instance, c.transition * std::exp(-(is_near ? farther : std::min(farther, kFarthest * tau_)) / tau_)});
   }
   return out;
 }
@@ -176,7 +192,7 @@ int InstanceWalk::next(const Taste& taste) {
   balance_ = std::clamp(balance_ + liveliness_[static_cast<std::size_t>(current_)] * secs / kBalanceSecs, -kMostBalance,
                         kMostBalance);
   double& fresh = freshness_[static_cast<std::size_t>(current_)];
-  fresh *= fading(current_);
+  fresh *= fading(before_.current, current_);
   if (fresh < 1e-9)  // long ago counts less: what was played more than 30 times oftener than others starts anew
     for (double& f : freshness_) f = std::min(1.0, f * 1e6);
   look_ahead();
@@ -184,8 +200,15 @@ int InstanceWalk::next(const Taste& taste) {
 }
 
 void InstanceWalk::take_back() {
-  if (current_ >= 0) freshness_[static_cast<std::size_t>(current_)] /= fading(current_);
+  if (current_ >= 0) freshness_[static_cast<std::size_t>(current_)] /= fading(before_.current, current_);
   current_ = before_.current, path_done_ = before_.path_done, balance_ = before_.balance;
+}
+
+std::vector<std::vector<int>> InstanceWalk::followers() const {
+  std::vector<std::vector<int>> out(followers_.size());
+  for (std::size_t a = 0; a < followers_.size(); ++a)
+    for (const Follower& b : followers_[a]) out[a].push_back(b.instance);
+  return out;
 }
 
 void InstanceWalk::lead(std::vector<int> path) {

@@ -15,14 +15,16 @@ double mean_speed(const MotionTexture& model, const Instance& instance);
 
 /// Random walk over the instances of a model [MT02 5.1]: from instance a (texton i) to b (texton j) with
 ///
-///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played / r), 0.65 max_c V(c)) over
+///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over
 ///   followers c of b
 ///
 /// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
-/// Followers farther than 1.25 τ are left out where nearer ones exist. V draws the dance towards what it has not shown
-/// lately, so that it neither goes in circles nor forgets a corner of the examples. z_b: how much livelier b is than
-/// the mean example, in deviations; β: the sum of z over what was played, in units of twenty seconds, at most ± 3. It
-/// keeps the dance as lively as its source. r: MotionTexture::visit_ratios, 1 in a model without edits.
+/// Followers farther than 1.25 τ are left out where nearer ones exist; but the nearest of a texton that edits prefer
+/// stays. V draws the dance towards what it has not shown lately, so that it neither goes in circles nor forgets a
+/// corner of the examples. z_b: how much livelier b is than the mean example, in deviations; β: the sum of z over what
+/// was played, in units of twenty seconds, at most ± 3. It keeps the dance as lively as its source. Where edits make
+/// the step from texton i to j r times as frequent as learned, coming to b that way counts as 1/r times played: V does
+/// not work against them.
 class InstanceWalk {
  public:
   InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless);
@@ -35,6 +37,8 @@ class InstanceWalk {
   void take_back();
   /// These textons come next, instead of what is left of the path.
   void lead(std::vector<int> path);
+  /// By example, what can come after it in the endless dance.
+  std::vector<std::vector<int>> followers() const;
 
  private:
   struct Follower {
@@ -48,7 +52,8 @@ class InstanceWalk {
   void find_liveliness();
   void lead_into_every_instance();
   double distance(int from, int to) const;
-  double fading(int instance) const;           ///< of its freshness when it is played
+  double preference(int from, int to) const;  ///< M against that without the edits' weights
+  double fading(int from, int to) const;      ///< of the freshness of `to` when it is played
   double transition(int from, int to) const;  ///< M of their textons
 
   const MotionTexture& model_;
@@ -63,7 +68,7 @@ class InstanceWalk {
     int current = -1;
     std::size_t path_done = 0;
     double balance = 0;
-  } before_;  ///< the last choice
+  } before_;                  ///< the last choice
   std::vector<int> allowed_;  ///< instances of the largest connected part
   std::vector<bool> texton_allowed_;
   std::vector<std::vector<Follower>> followers_;  ///< by instance

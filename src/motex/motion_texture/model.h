@@ -81,7 +81,8 @@ struct MotionTexture {
   LearnOptions options;
   std::vector<ModelEdit> edits;      ///< in the order in which they were made
   bool edits_applied = false;        ///< false: all else is as it was learned, which is what files hold
-  std::vector<double> visit_ratios;  ///< a texton: how much oftener than as learned the edits play it; empty: all 1
+  TransitionMatrix unweighted;       ///< transitions before edits weighed them; without states when none did
+  std::vector<double> visit_ratios;  ///< a texton: how much oftener its visits are than by unweighted; empty: all 1
 
   const Subspace& subspace(int texton) const {
     return subspaces[subspaces.size() == 1 ? 0 : static_cast<std::size_t>(texton)];

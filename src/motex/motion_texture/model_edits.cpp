@@ -16,8 +16,6 @@
 namespace motex {
 namespace {
 
-constexpr double kMostVisitRatio = 10;
-
 std::size_t at(int texton) { return static_cast<std::size_t>(texton); }
 
 std::string listed(const MotionTexture& model, const std::vector<int>& textons) {
@@ -215,18 +213,18 @@ void check_ways_out(const MotionTexture& model, const TransitionMatrix& unweight
     if (!model.transitions.is_dead_end(i) || unweighted.is_dead_end(i)) continue;
     std::vector<int> followers;
     for (const TransitionCount& c : unweighted.counts_from(i)) followers.push_back(c.to);
-    throw InvalidInput("nothing would follow texton " + texton_label(model, i) + ": " + listed(model, followers) +
-                       (followers.size() == 1 ? " is the only way out; drop " : " are the only ways out; drop ") +
-                       texton_label(model, i) + ", or use a small factor above 0");
+    throw InvalidInput("nothing would follow texton " + texton_label(model, i) + ": " +
+                       (followers.size() == 1 ? "its only way out (" : "all its ways out (") +
+                       listed(model, followers) + ") would be forbidden; drop texton " + texton_label(model, i) +
+                       " too, or use a small factor above 0");
   }
 }
 
-void find_visit_ratios(MotionTexture& model, const TransitionMatrix& unweighted) {
+void find_visit_ratios(MotionTexture& model) {
   const std::vector<int> danced = danced_textons(model);
-  const auto before = stationary_shares(unweighted, danced), after = stationary_shares(model.transitions, danced);
+  const auto before = stationary_shares(model.unweighted, danced), after = stationary_shares(model.transitions, danced);
   model.visit_ratios.assign(model.textons.size(), 1);
-  for (std::size_t k = 0; k < danced.size(); ++k)
-    model.visit_ratios[at(danced[k])] = std::clamp(after[k] / before[k], 1 / kMostVisitRatio, kMostVisitRatio);
+  for (std::size_t k = 0; k < danced.size(); ++k) model.visit_ratios[at(danced[k])] = after[k] / before[k];
 }
 
 void check_dances(const MotionTexture& model) {
@@ -274,7 +272,10 @@ MotionTexture apply_edits(MotionTexture model) {
   model.transitions = contracted(learned, labels, true);
   check_ways_out(model, unweighted);
   check_dances(model);
-  if (!labels.weights.empty()) find_visit_ratios(model, unweighted);
+  if (!labels.weights.empty()) {
+    model.unweighted = unweighted;
+    find_visit_ratios(model);
+  }
   return model;
 }
 
@@ -302,7 +303,7 @@ std::vector<int> without(const std::vector<int>& a, const std::vector<int>& b) {
 }  // namespace
 
 EditReport add_edit(MotionTexture& learned, ModelEdit edit) {
-  parse_edit(edit_text(edit));
+  if (parse_edit(edit_text(edit)) != edit) throw InvalidInput("an edit and its name stand on one line");
   const MotionTexture before = apply_edits(learned);
   learned.edits.push_back(std::move(edit));
   try {
