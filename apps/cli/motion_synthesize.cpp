@@ -8,10 +8,13 @@
 #include "closest.h"
 #include "commands.h"
 #include "model_sources.h"
+#include "motex/motion_texture/beats.h"
 #include "motex/motion_texture/synthesize.h"
+#include "motex/project/load_beats.h"
 #include "motex/project/model_file.h"
 #include "options_value.h"
 #include "output_file.h"
+#include "skin_argument.h"
 #include "text_table.h"
 #include "texton_argument.h"
 
@@ -29,7 +32,7 @@ void name_feet(MotionTexture& model, const std::vector<std::string>& names, cons
 }
 
 struct Synthesize {
-  std::string model_path, path_text, feet_text, texton_text;
+  std::string model_path, path_text, feet_text, texton_text, beats_path, skin_path;
   std::vector<std::string> outputs;
   std::int64_t frames = 0;
   double secs = 0;
@@ -49,12 +52,16 @@ struct Synthesize {
     arguments.value("--path", "T,T,…",
                     "textons to play, numbers or names, in this order; with --frames or --secs it goes on from there",
                     path_text);
+    arguments.value("--beats", "FILE",
+                    "textons begin on these beats: a time in seconds a line, or music to be listened to (.wav)",
+                    beats_path);
     arguments.toggle("--unconstrained", "one texton by its dynamics and noise alone, without end poses (with --texton)",
                      unconstrained);
     arguments.value("--texton", "T", "that one, by number or name", texton_text);
     arguments.section("How");
     arguments.options(options);
     arguments.value("--feet", "NAME,…", "the joints that are feet, one a leg (default: found by the model)", feet_text);
+    declare_skin(arguments, skin_path);
   }
 
   void run(Session& session) {
@@ -64,6 +71,8 @@ struct Synthesize {
     const Index num_frames = wanted_frames(model.frame_time_secs());
     const std::vector<int> textons = texton_numbers(model, "--path", split_at_commas(path_text));
     const int texton = unconstrained ? texton_number(model, "--texton", texton_text) : -1;
+    if (!beats_path.empty()) options.beats = load_beats(beats_path, session.job(0, 0.1));
+    put_on_skin(skin_path, model.features.skeleton, session);
     if (session.flags.dry_run) return report_dry_run(num_frames, session);
     if (!feet_text.empty()) name_feet(model, split_at_commas(feet_text), session.job(0, 0.1));
     SynthesizeReport report;
@@ -76,7 +85,9 @@ struct Synthesize {
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 fixed(static_cast<double>(clip.num_frames()) * clip.frame_time_secs, 1) + " s, " +
                 std::to_string(report.played.size()) + " textons, seed " + std::to_string(options.seed));
-    session.result(report_value(model, clip, report, session), "");
+    Value object = report_value(model, clip, report, session);
+    if (!options.beats.empty()) object["beats"] = beats_value(report_beats(model, report.played, options.beats));
+    session.result(object, "");
   }
 
  private:
@@ -100,6 +111,8 @@ struct Synthesize {
     if (!has_length && path_text.empty()) throw InvalidInput("--frames N, --secs S or --path missing; see --help");
     if (unconstrained && (texton_text.empty() || !has_length || !path_text.empty()))
       throw InvalidInput("--unconstrained goes with --texton T and --frames N or --secs S, without --path");
+    if (unconstrained && !beats_path.empty())
+      throw InvalidInput("--beats goes with textons in turn, not --unconstrained");
     if (!unconstrained && !texton_text.empty())
       throw InvalidInput("--texton goes with --unconstrained; for a path use --path");
   }
@@ -110,6 +123,16 @@ struct Synthesize {
     const double wanted = std::round(secs / frame_time_secs);
     if (wanted > kMaxFrames) throw InvalidInput("--secs: more than 2e7 frames");
     return std::max<Index>(1, static_cast<Index>(wanted));
+  }
+
+  static Value beats_value(const BeatReport& report) {
+    Value object;
+    object["textons_begun"] = report.num_boundaries;
+    object["median_offset_frames"] = report.median_offset;
+    object["largest_offset_frames"] = report.largest_offset;
+    object["share_on_beat"] = report.share_on_beat;
+    object["median_stretch"] = report.median_stretch;
+    return object;
   }
 
   void report_dry_run(Index num_frames, Session& session) const {

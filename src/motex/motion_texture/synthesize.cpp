@@ -3,16 +3,24 @@
 #include "motex/motion_texture/synthesize.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "motex/core/options_check.h"
 #include "motex/motion/floor.h"
+#include "motex/motion_texture/beats.h"
 #include "motex/motion_texture/instance_walk.h"
+#include "motex/motion_texture/jumps.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/segment_synthesis.h"
 
 namespace motex {
+namespace {
+
+constexpr double kBeatTaste = 1.5;  // log p for each unit of BeatGrid::cost
+
+}  // namespace
 
 struct Synthesizer::State {
   State(const MotionTexture& m, const SynthesizeOptions& options, std::vector<int> path, bool endless)
@@ -23,7 +31,8 @@ struct Synthesizer::State {
         standing_pose(pose) {
     if (options.foot_fix && !m.feet.legs.empty()) fixer.emplace(m.feet, m.features.skeleton, m.frame_time_secs());
     if (options.floor_fix && !m.feet.legs.empty()) floor.emplace(m.feet, m.features.skeleton, m.frame_time_secs());
-    coming = walk.next();
+    if (!options.beats.empty()) grid.emplace(m, options.beats, options.stretch, walk.followers());
+    coming = next_from(0);
     if (coming >= 0) place = m.instances[static_cast<std::size_t>(coming)].place;
     advance();
   }
@@ -32,13 +41,32 @@ struct Synthesizer::State {
   bool advance() {
     if (coming < 0) return false;
     const int instance = coming;
-    coming = walk.next();
-    features = &segments.play(instance, coming);
+    if (grid) {
+      const Index next_start = grid->end_of(instance, num_made);
+      coming = next_from(next_start);
+      features = &(coming < 0 ? segments.play(instance, coming)
+                              : segments.play(piece(instance, coming, next_start - num_made + 2)));
+    } else {
+      coming = walk.next();
+      features = &segments.play(instance, coming);
+    }
     end = features->rows() - (coming < 0 ? 0 : 2);
     row = 0;
     now = {model.instances[static_cast<std::size_t>(instance)].texton, instance, num_made, end};
     begun.push_back(now);
     return true;
+  }
+
+  /// The instance to begin at an output frame: with beats, rather one that can end on one.
+  int next_from(Index start) {
+    if (!grid) return walk.next();
+    return walk.next([&](int instance) { return std::exp(-kBeatTaste * std::min(400.0, grid->cost(instance, start))); });
+  }
+
+  Piece piece(int instance, int next, Index length) const {
+    const Instance& a = model.instances[static_cast<std::size_t>(instance)];
+    return {a.texton, a.row, hand_over_row(model, a) + 2 - a.row,
+            a.row,    model.instances[static_cast<std::size_t>(next)].row, length};
   }
 
   /// Decodes the next frame into `out`.
@@ -68,6 +96,7 @@ struct Synthesizer::State {
   const MotionTexture& model;
   InstanceWalk walk;
   SegmentSynthesis segments;
+  std::optional<BeatGrid> grid;
   std::optional<FootFixer> fixer;
   std::optional<FloorFixer> floor;
   Clip pose, standing_pose;

@@ -17,6 +17,8 @@ enum class KeyPoses { kNearest, kRandom };
 
 struct SynthesizeOptions : PlayOptions {
   KeyPoses key_poses = KeyPoses::kNearest;
+  double stretch = 0.15;
+  std::vector<double> beats;  ///< s, rising: textons begin there (BeatGrid)
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -24,6 +26,8 @@ struct SynthesizeOptions : PlayOptions {
     visit(Field{"key_poses", "",
                 "next example by nearness of its first poses to the present ones, or at random (the paper)"},
           self.key_poses, Choices{{"nearest", "random"}});
+    visit(Field{"stretch", "", "with beats: how much longer or shorter than itself an example is usually played"},
+          self.stretch, Range{0, 1});
   }
 };
 
