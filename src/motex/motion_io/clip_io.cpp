@@ -9,6 +9,7 @@
 #include "motex/core/options_check.h"
 #include "motex/motion_io/asf_amc.h"
 #include "motex/motion_io/bvh.h"
+#include "motex/motion_io/fbx.h"
 #include "motex/motion_io/gltf.h"
 #include "motex/motion_io/gltf_skin.h"
 #include "motex/motion_io/npz.h"
@@ -79,7 +80,7 @@ std::string joined(const std::vector<std::string>& extensions) {
 Kind choose_kind(std::string_view bytes, const std::string& name, const JobContext& job) {
   const Kind stated = kind_of_extension(lower_extension(name)), found = kind_of_content(bytes);
   if (found == Kind::kUnknown || found == stated) return stated;
-  const bool readable = found == Kind::kBvh || found == Kind::kGltf;
+  const bool readable = found == Kind::kBvh || found == Kind::kGltf || found == Kind::kFbx;
   if (readable && stated != Kind::kUnknown)
     job.warn(name + ": holds " + kKindNames[static_cast<int>(found)] + ", whatever its name says; it is read so");
   return found;
@@ -89,6 +90,7 @@ Clip read_as(Kind kind, std::string_view bytes, const std::string& name, const R
              const JobContext& job) {
   if (kind == Kind::kBvh) return read_bvh_bytes(bytes, name, options, job);
   if (kind == Kind::kGltf) return read_gltf_bytes(bytes, name, options, job);
+  if (kind == Kind::kFbx) return read_fbx_bytes(bytes, name, options, job);
   if (kind != Kind::kAmc) refuse(kind, name);
   if (options.asf.empty()) throw InvalidInput(name + ": an AMC clip needs its skeleton; name the .asf with --asf");
   const std::string skeleton = read_file(options.asf);
@@ -106,7 +108,11 @@ Clip finished(Clip clip, const ReadClipOptions& options, const JobContext& job) 
 }  // namespace
 
 const std::vector<std::string>& readable_clip_extensions() {
-  static const std::vector<std::string> extensions{".bvh", ".amc", ".glb", ".gltf"};
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all{".bvh", ".amc", ".glb", ".gltf"};
+    if (reads_fbx()) all.push_back(".fbx");
+    return all;
+  }();
   return extensions;
 }
 

@@ -11,7 +11,7 @@
 
 namespace motex {
 
-/// With dot, in lower case: ".bvh", ".amc", ".glb", ".gltf".
+/// With dot, in lower case: ".bvh", ".amc", ".glb", ".gltf" and, where the build has Assimp, ".fbx".
 const std::vector<std::string>& readable_clip_extensions();
 /// ".bvh", ".glb", ".csv", ".npz".
 const std::vector<std::string>& writable_clip_extensions();

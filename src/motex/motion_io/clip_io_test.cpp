@@ -43,9 +43,8 @@ void expect_refused(const std::string& bytes, const std::string& name, const std
 }
 
 TEST_F(ClipIo, UnreadableKindsAreNamed) {
-  expect_refused<UnsupportedFile>("Kaydara FBX Binary  ", "a.fbx",
-                                  "is a FBX file; motex reads .bvh, .amc, .glb, .gltf");
-  expect_refused<UnsupportedFile>("; FBX 7.4.0 project file", "a.bvh", "is a FBX file");
+  expect_refused<InvalidInput>("Kaydara FBX Binary  ", "a.fbx", "a.fbx");
+  expect_refused<InvalidInput>("; FBX 7.4.0 project file", "a.bvh", "FBX");
   expect_refused<UnsupportedFile>("anything", "a.C3D", "is a C3D file");
   expect_refused<UnsupportedFile>("PathFileType\t4", "a.txt", "is a TRC file");
   expect_refused<UnsupportedFile>("PK\x03\x04", "a.bvh", "is a zip or NPZ file");

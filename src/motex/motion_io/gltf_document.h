@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "motex/motion/rotation.h"
+#include "motex/motion_io/read_options.h"
 
 namespace motex {
 
@@ -45,5 +46,10 @@ struct GltfDocument {
 
 /// folder: where buffers in other files are looked for; empty = nowhere.
 GltfDocument parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder);
+
+/// The moving skeleton of the nodes: read_gltf after parsing, for other formats of nodes and tracks too. num_bytes: of
+/// the file, bounds memory. Lengths are taken for metres.
+Clip clip_of_nodes(const GltfDocument& document, const std::string& name, std::size_t num_bytes,
+                   const ReadClipOptions& options, const JobContext& job);
 
 }  // namespace motex

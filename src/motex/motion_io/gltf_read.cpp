@@ -268,6 +268,11 @@ Clip convert(std::string_view bytes, const std::string& name, const std::filesys
 
 }  // namespace
 
+Clip clip_of_nodes(const GltfDocument& document, const std::string& name, std::size_t num_bytes,
+                   const ReadClipOptions& options, const JobContext& job) {
+  return GltfToClip(document, name, num_bytes, options, job).convert();
+}
+
 Clip read_gltf_bytes(std::string_view bytes, const std::string& name, const ReadClipOptions& options,
                      const JobContext& job) {
   return convert(bytes, name, {}, options, job);
