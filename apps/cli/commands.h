@@ -31,6 +31,8 @@ Command motion_texton_keep();
 Command motion_texton_merge();
 Command motion_texton_weight();
 Command motion_texton_undo();
+Command particles_decompose();
+Command particles_score();
 Command doctor();
 
 }  // namespace motex::cli

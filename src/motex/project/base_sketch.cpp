@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/project/base_sketch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace motex {
+namespace {
+
+constexpr Rgba kPositive{20, 20, 20, 255}, kNegative{40, 90, 200, 255};
+constexpr int kRingCorners = 24;
+
+double strength(const Base& base, int num_planes) {
+  double sum = 0;
+  for (int k = 0; k < num_planes; ++k) sum += base.coefficients[static_cast<std::size_t>(k)];
+  return sum / num_planes;
+}
+
+Polyline ring(Point centre, double radius, Rgba colour, double width) {
+  Polyline line{{}, colour, width, 0};
+  for (int k = 0; k <= kRingCorners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kRingCorners;
+    line.points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return line;
+}
+
+/// The four corners of a bar along v, half as wide as the middle lobe.
+Polyline bar(Point centre, const Base& base, double size, Rgba colour, double width) {
+  const double c = std::cos(base.angle), s = std::sin(base.angle), across = 0.6 * size, along = 1.8 * size;
+  Polyline line{{}, colour, width, 0};
+  for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
+    line.points.push_back({centre.x + u * across * c - v * along * s, centre.y + u * across * s + v * along * c});
+  return line;
+}
+
+void add_edge(Drawing& drawing, Point centre, const Base& base, double size, double sign, Rgba colour, double width) {
+  const double c = std::cos(base.angle), s = std::sin(base.angle), along = 1.8 * size;
+  drawing.add(Polyline{
+      {{centre.x + along * s, centre.y - along * c}, {centre.x - along * s, centre.y + along * c}}, colour, width, 0});
+  drawing.add(Polyline{{centre, {centre.x + sign * size * c, centre.y + sign * size * s}}, colour, width, 0});
+}
+
+}  // namespace
+
+Drawing base_sketch(const BaseMap& map, double magnification) {
+  Drawing drawing;
+  drawing.width = map.width * magnification;
+  drawing.height = map.height * magnification;
+  std::vector<double> sizes;
+  for (const Base& base : map.bases) sizes.push_back(std::abs(strength(base, map.num_planes)));
+  std::sort(sizes.begin(), sizes.end());
+  const double strong = sizes.empty() ? 1 : std::max(1e-9, sizes[sizes.size() * 9 / 10]);
+  for (auto base = map.bases.rbegin(); base != map.bases.rend(); ++base) {  // the first found on top
+    const double amount = strength(*base, map.num_planes), size = base->scale * magnification;
+    const double opacity = 0.25 + 0.75 * std::min(1.0, std::abs(amount) / strong);
+    const Rgba colour = with_alpha(amount < 0 ? kNegative : kPositive, opacity);
+    const Point centre{(base->x + 0.5) * magnification, (base->y + 0.5) * magnification};
+    const double width = 0.6 * std::sqrt(magnification);
+    if (base->kind == BaseKind::kLog) drawing.add(ring(centre, 1.4 * size, colour, width));
+    if (base->kind == BaseKind::kGaussian) drawing.add(Disc{centre, 0.8 * size, colour});
+    if (base->kind == BaseKind::kGaborCos) drawing.add(bar(centre, *base, size, colour, width));
+    if (base->kind == BaseKind::kGaborSin)
+      add_edge(drawing, centre, *base, size, amount < 0 ? -1 : 1, with_alpha(kPositive, opacity), width);
+  }
+  return drawing;
+}
+
+}  // namespace motex

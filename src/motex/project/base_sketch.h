@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motex/particles/base.h"
+#include "motex/plot/drawing.h"
+
+namespace motex {
+
+/// Symbols instead of light, as in [TM02] Figures 1 and 3: a ring for a blob (LoG), a disc for a Gaussian, a bar for
+/// Gcos, and for Gsin an edge: a line with a tick to its brighter side. Sizes are the bases' own; positive coefficients
+/// black, negative ones blue, weak ones faint. Size of the drawing: the image's, times magnification.
+Drawing base_sketch(const BaseMap& map, double magnification = 2);
+
+}  // namespace motex

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/project/track_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "motex/core/error.h"
+
+namespace motex {
+namespace {
+
+enum Column { kFrame, kId, kX, kY, kAmplitude, kScale, kAngle, kNumColumns };
+constexpr int kNumNeeded = 4;
+const std::array<std::vector<std::string_view>, kNumColumns> kNames{{{"frame", "t"},
+                                                                     {"track", "id", "particle", "track_id"},
+                                                                     {"x"},
+                                                                     {"y"},
+                                                                     {"amplitude", "amp"},
+                                                                     {"scale", "size", "sigma"},
+                                                                     {"angle", "theta"}}};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kSpace = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line, char separator) {
+  std::vector<std::string_view> words;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(separator, at), line.size());
+    words.push_back(trimmed(line.substr(at, end - at)));
+    at = end + 1;
+  }
+  return words;
+}
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  std::vector<Track> read() {
+    std::string_view line;
+    while (next_line(line) && trimmed(line).empty()) {
+    }
+    read_heading(line);
+    std::map<std::int64_t, Track> tracks;
+    while (next_line(line)) {
+      if (trimmed(line).empty() || line[0] == '#') continue;
+      const std::vector<std::string_view> words = split(line, separator_);
+      const auto id = whole(words, kId);
+      TrackPoint point;
+      point.frame = whole(words, kFrame);
+      point.x = number(words, kX);
+      point.y = number(words, kY);
+      if (places_[kAmplitude] >= 0) point.amplitude = number(words, kAmplitude);
+      if (places_[kScale] >= 0) point.scale = number(words, kScale);
+      if (places_[kAngle] >= 0) point.angle = number(words, kAngle);
+      tracks[id].points.push_back(point);
+    }
+    return sorted(tracks);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw ParseError(name_, ParseError::Unit::kLine, line_, message);
+  }
+
+  bool next_line(std::string_view& line) {
+    if (at_ >= text_.size()) return false;
+    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+    line = text_.substr(at_, end - at_);
+    at_ = end + 1;
+    ++line_;
+    return true;
+  }
+
+  void read_heading(std::string_view line) {
+    for (const char separator : {',', ';', '\t'})
+      if (line.find(separator) != std::string_view::npos) {
+        separator_ = separator;
+        break;
+      }
+    std::vector<std::string> heading;
+    for (const std::string_view word : split(line, separator_)) {
+      heading.emplace_back(word.substr(word.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0));
+      for (char& c : heading.back()) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    for (std::size_t column = 0; column < kNumColumns; ++column) {
+      places_[column] = -1;
+      for (const std::string_view known : kNames[column])
+        if (const auto found = std::find(heading.begin(), heading.end(), known);
+            found != heading.end() && places_[column] < 0)
+          places_[column] = static_cast<int>(found - heading.begin());
+      if (column < kNumNeeded && places_[column] < 0)
+        fail("the heading has no column '" + std::string(kNames[column][0]) +
+             "'; frame, track (or id), x, y are needed");
+    }
+  }
+
+  double number(const std::vector<std::string_view>& words, Column column) const {
+    const auto place = static_cast<std::size_t>(places_[column]);
+    if (place >= words.size()) fail("the line has too few columns");
+    const std::string_view word = words[place];
+    double value = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || std::abs(value) > 1e15)
+      fail("'" + std::string(word.substr(0, 40)) + "' is not a number");
+    return value;
+  }
+
+  std::int64_t whole(const std::vector<std::string_view>& words, Column column) const {
+    const double value = number(words, column);
+    if (value != std::floor(value)) fail(std::string(kNames[column][0]) + " must be a whole number");
+    return static_cast<std::int64_t>(value);
+  }
+
+  std::vector<Track> sorted(std::map<std::int64_t, Track>& by_id) const {
+    std::vector<Track> tracks;
+    for (auto& [id, track] : by_id) {
+      track.id = id;
+      std::sort(track.points.begin(), track.points.end(),
+                [](const TrackPoint& a, const TrackPoint& b) { return a.frame < b.frame; });
+      for (std::size_t k = 1; k < track.points.size(); ++k)
+        if (track.points[k].frame == track.points[k - 1].frame)
+          fail("track " + std::to_string(id) + " stands twice in frame " + std::to_string(track.points[k].frame));
+      tracks.push_back(std::move(track));
+    }
+    return tracks;
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  std::int64_t line_ = 0;
+  char separator_ = ',';
+  std::array<int, kNumColumns> places_{};
+};
+
+}  // namespace
+
+std::vector<Track> parse_tracks_csv(std::string_view text, const std::string& name) {
+  return TableReader(text, name).read();
+}
+
+}  // namespace motex
