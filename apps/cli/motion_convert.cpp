@@ -9,6 +9,7 @@
 #include "motex/motion_io/markers_io.h"
 #include "options_value.h"
 #include "output_file.h"
+#include "skin_argument.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -32,7 +33,7 @@ FrameRange parse_range(const std::string& text) {
 }
 
 struct Convert {
-  std::string clip_path, range_text;
+  std::string clip_path, range_text, skin_path;
   std::vector<std::string> outputs;
   ReadClipOptions read;
   AdaptClipOptions adapt;
@@ -45,6 +46,7 @@ struct Convert {
                outputs)
         .required = true;
     arguments.value("--frames", "A:B", "frames A to B only, both included, counted from 0 after reading", range_text);
+    declare_skin(arguments, skin_path);
     arguments.section("Reading the clip");
     arguments.options(read);
     declare_adapt(arguments, adapt);
@@ -64,6 +66,7 @@ struct Convert {
  private:
   void convert_clip(const FrameRange& range, Session& session) const {
     Clip clip = cut(read_clip(clip_path, read, session.job(0, 0.5)), range);
+    put_on_skin(skin_path, clip.skeleton, session);
     clip = adapt_clip(std::move(clip), adapt, session.job(0.5, 0.6));
     if (!session.flags.dry_run) write_clip_outputs(outputs, clip, {}, only_up(), session);
     Value object = common_value(clip.num_frames(), clip.frame_rate(), clip.skeleton.metres_per_unit);

@@ -22,7 +22,7 @@ struct PostureName {
   std::string text = "rest";
 
   void declare(Arguments& arguments, const std::string& flag, const std::string& whose) {
-    arguments.value(flag, "FRAME", "frame of " + whose + " that shows the common posture (default: rest)", text).set =
+    arguments.value(flag, "FRAME", "frame of " + whose + " that shows the common posture (default: rest; with a skin, as it was bound)", text).set =
         [this, flag](const std::string& value) {
           std::int64_t frame = 0;
           if (value != "rest") parse_value(flag, value, frame);
@@ -30,7 +30,7 @@ struct PostureName {
         };
   }
   PosedSkeleton of(const Clip& clip) const {
-    return text == "rest" ? at_rest(clip.skeleton) : at_frame(clip, std::stol(text));
+    return text == "rest" ? as_bound(clip.skeleton) : at_frame(clip, std::stol(text));
   }
 };
 

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -360,6 +361,22 @@ void Retargeter::hold_feet(Clip& out) {
 }  // namespace
 
 PosedSkeleton at_rest(const Skeleton& skeleton) { return at_frame(make_clip(skeleton, 1, 1), 0); }
+
+PosedSkeleton as_bound(const Skeleton& skeleton) {
+  PosedSkeleton out = at_rest(skeleton);
+  if (!skeleton.skin) return out;
+  std::map<std::string, Quat> turns;
+  for (const SkinJoint& joint : skeleton.skin->joints) turns.emplace(joint.name, joint.rotation);
+  for (int j = 0; j < skeleton.num_joints(); ++j) {
+    const Joint& joint = skeleton.joints[at(j)];
+    const Quat above = joint.parent_idx >= 0 ? out.pose.rotation(joint.parent_idx) : Quat::Identity();
+    const auto turn = turns.find(joint.name);
+    out.pose.rotations.col(j) = (turn != turns.end() ? turn->second : above).coeffs();
+    if (joint.parent_idx >= 0)
+      out.pose.positions.col(j) = out.pose.positions.col(joint.parent_idx) + above * joint.offset;
+  }
+  return out;
+}
 
 PosedSkeleton at_frame(const Clip& clip, Index frame) {
   if (frame < 0 || frame >= clip.num_frames())

@@ -19,6 +19,8 @@ struct PosedSkeleton {
 };
 /// No joint turned, every joint at its offset.
 PosedSkeleton at_rest(const Skeleton& skeleton);
+/// As its skin was bound, so that joints' frames may lie as they like; at rest where there is no skin.
+PosedSkeleton as_bound(const Skeleton& skeleton);
 PosedSkeleton at_frame(const Clip& clip, Index frame);
 
 struct RetargetOptions {

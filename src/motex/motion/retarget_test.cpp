@@ -64,6 +64,29 @@ TEST(Retarget, DirectionsAreKeptWhateverTheRestPose) {
   EXPECT_LT((world_positions(out).leftCols(n) - 2.5 * world_positions(source).leftCols(n)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+TEST(Retarget, ASkinTellsHowTheJointsFramesLie) {
+  const Clip source = walk();
+  Skeleton target = source.skeleton;
+  auto skin = std::make_shared<Skin>();
+  std::vector<Quat> turns;
+  for (Joint& joint : target.joints) {
+    const auto k = static_cast<double>(turns.size());
+    turns.push_back(exp_map(Vector3(std::sin(3 * k), std::cos(5 * k), std::sin(7 * k + 1))));
+    if (joint.parent_idx >= 0)
+      joint.offset = turns[static_cast<std::size_t>(joint.parent_idx)].conjugate() * joint.offset;
+    skin->joints.push_back({joint.name, Vector3::Zero(), turns.back()});
+  }
+  for (EndSite& site : target.end_sites)
+    site.offset = turns[static_cast<std::size_t>(site.parent_idx)].conjugate() * site.offset;
+  target.skin = skin;
+  RetargetOptions options;
+  options.foot_fix = false;
+  RetargetReport report;
+  const Clip out = retarget(source, as_bound(source.skeleton).pose, as_bound(target),
+                            match_joints(source.skeleton, target), options, report);
+  EXPECT_LT((world_positions(out) - world_positions(source)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 TEST(Retarget, ABodyThatLooksTheOtherWay) {
   const Clip source = walk();
   Skeleton turned = source.skeleton;

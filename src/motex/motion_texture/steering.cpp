@@ -19,7 +19,7 @@ namespace motex {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kReplanSecs = 0.3;      // a rest shorter than this is played to its end
+constexpr double kReplanSecs = 0.5;      // a rest shorter than this is played to its end
 constexpr double kTurnGainPerSec = 2.5;  // of the angle that is left
 constexpr double kTurnRampSecs = 0.25;   // from rest to the fastest turn
 constexpr double kStandingCm = 1.5;      // feet this much higher than the lower one carry 1/e of the weight

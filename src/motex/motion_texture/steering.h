@@ -52,7 +52,7 @@ Excursion excursion(const MotionTexture& model, int instance);
 ///   facing (alone):     u = −(angle left / 45°)²
 ///
 /// Turn: each frame the whole figure is turned about the foot that stands, by at most max_turn, such that the rest of
-/// this example and the next lead in the wanted direction. A command that comes with more than 0.3 s of an example left
+/// this example and the next lead in the wanted direction. A command that comes with more than 0.5 s of an example left
 /// has it replaced from where it is: its rest then leads to another. Frames come out late by the foot pass (0.4 s).
 class SteeredSynthesizer {
  public:
