@@ -113,6 +113,7 @@ struct Decompose {
       write_picture(folder.file("sketch_" + padded(counts[k]) + ".png"), base_sketch(map));
       rows.push_back({std::to_string(map.bases.size()), decibels(result.psnr[k])});
     }
+    write_picture(folder.file("figure.png"), decomposition_figure(result));
     object["frames"].append(frame_value(result, counts));
     write_file(folder.file("decomposition.json"), to_json(object) + "\n");
     folder.commit();

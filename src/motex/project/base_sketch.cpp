@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+
+#include "motex/plot/charts.h"
 
 namespace motex {
 namespace {
@@ -66,6 +69,38 @@ Drawing base_sketch(const BaseMap& map, double magnification) {
       add_edge(drawing, centre, *base, size, amount < 0 ? -1 : 1, with_alpha(kPositive, opacity), width);
   }
   return drawing;
+}
+
+Drawing decomposition_figure(const FrameDecomposition& frame) {
+  const double width = frame.observed[0].width, height = frame.observed[0].height;
+  const auto panel = [&](const std::string& caption) {
+    Drawing drawing;
+    drawing.width = width + 12;
+    drawing.height = height + 30;
+    drawing.add(Text{{6 + width / 2, height + 22}, caption, 12, {30, 30, 30, 255}, Align::kCentre, false, false});
+    return drawing;
+  };
+  const auto picture = [&](const Planes& planes, const std::string& caption) {
+    Drawing drawing = panel(caption);
+    drawing.add(Picture{{6, 6}, width, height, to_image(planes)});
+    return drawing;
+  };
+  const auto decibels = [](double psnr) {
+    if (!std::isfinite(psnr)) return std::string("exact");
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f dB", psnr);
+    return std::string(text);
+  };
+  std::vector<Drawing> panels{picture(frame.observed, "frame " + std::to_string(frame.frame))};
+  for (std::size_t k = 0; k < frame.maps.size(); ++k)
+    panels.push_back(
+        picture(frame.pictures[k], std::to_string(frame.maps[k].bases.size()) + " bases, " + decibels(frame.psnr[k])));
+  panels.push_back(picture(frame.background, "background, " + decibels(frame.background_psnr)));
+  for (const BaseMap& map : frame.maps) {
+    panels.push_back(panel(std::to_string(map.bases.size()) + " bases"));
+    append(panels.back(), base_sketch(map, 1), {6, 6});
+  }
+  return grid(panels, static_cast<int>(frame.maps.size()) + 1, "");
 }
 
 }  // namespace motex

@@ -4,6 +4,7 @@
 
 #include "motex/particles/base.h"
 #include "motex/plot/drawing.h"
+#include "motex/project/decompose_video.h"
 
 namespace motex {
 
@@ -11,5 +12,9 @@ namespace motex {
 /// Gcos, and for Gsin an edge: a line with a tick to its brighter side. Sizes are the bases' own; positive coefficients
 /// black, negative ones blue, weak ones faint. Size of the drawing: the image's, times magnification.
 Drawing base_sketch(const BaseMap& map, double magnification = 2);
+
+/// A frame and what became of it, as in [TM02] Figure 2: the observed picture, then for each number of bases the
+/// reconstruction with its PSNR, and below them the background and the sketches.
+Drawing decomposition_figure(const FrameDecomposition& frame);
 
 }  // namespace motex
