@@ -104,7 +104,8 @@ void refuse_text(InputBytes& input, const std::string& name) {
   if (head.empty()) throw UnsupportedFile(name + ": is empty (0 bytes)");
   if (head.rfind("version https://git-lfs.github.com/spec", 0) == 0)
     throw UnsupportedFile(name + ": is a Git-LFS pointer, not the video itself: run git lfs pull");
-  if (head.rfind("YUV4MPEG2", 0) == 0 || !is_text(head)) return;
+  const bool is_netpbm = head.size() > 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7' && head[2] <= ' ';
+  if (head.rfind("YUV4MPEG2", 0) == 0 || is_netpbm || !is_text(head)) return;
   if (lower(head).find("<html") != std::string::npos || lower(head).find("<!doctype html") != std::string::npos)
     throw UnsupportedFile(name + ": is a web page, not a video: download the video itself");
   throw UnsupportedFile(name + ": is a text file, not a video");

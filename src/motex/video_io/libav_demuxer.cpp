@@ -77,7 +77,8 @@ Demuxer::Demuxer(InputBytes& input, const std::string& name, const JobContext& j
   format_->io_open = &refuse_open;
   format_->format_whitelist = av_strdup(kFormats);
   format_->flags |= AVFMT_FLAG_CUSTOM_IO;
-  int code = avformat_open_input(&format_, name.c_str(), nullptr, nullptr);  // frees format_ when it fails
+  // Known by its bytes alone: a name could stand for a numbered sequence. Frees format_ when it fails.
+  int code = avformat_open_input(&format_, "", nullptr, nullptr);
   if (code < 0) throw UnsupportedFile(name + ": " + why_unreadable(input, code));
   code = avformat_find_stream_info(format_, nullptr);
   if (code >= 0) code = av_find_best_stream(format_, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);

@@ -294,6 +294,14 @@ std::string tiff_of(const std::vector<std::vector<std::uint16_t>>& pages, std::u
   return bytes;
 }
 
+TEST_F(VideoIo, PicturesWithoutCompression) {
+  write_file(folder_ / "f_0.pgm", std::string("P5\n3 2\n255\n") + "ABCabc");
+  write_file(folder_ / "f_1.pgm", std::string("P5\n3 2\n255\n") + "DEFdef");
+  const std::vector<VideoFrame> got = read(folder_);
+  ASSERT_EQ(got.size(), 2U);
+  EXPECT_EQ(got[1].image.at(2, 0), (Rgba{'F', 'F', 'F', 255}));
+}
+
 TEST_F(VideoIo, TiffStacksKeepSixteenBits) {
   std::vector<std::vector<std::uint16_t>> pages(5, std::vector<std::uint16_t>(8 * 6));
   for (std::size_t t = 0; t < pages.size(); ++t)

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The motex authors
+# SPDX-License-Identifier: MIT
+"""The commands of the noun particles: what they write, and how they take bad requests."""
+
+import json
+import math
+import unittest
+
+from command import CommandTest
+
+
+def write_pictures(folder, num_frames=9, width=48, height=36):
+    """Grey pictures: a bright blob that falls through a gradient."""
+    folder.mkdir()
+    for t in range(num_frames):
+        rows = bytearray()
+        for y in range(height):
+            for x in range(width):
+                blob = 120 * math.exp(-((x - 20) ** 2 + (y - 4 * t) ** 2) / 8)
+                rows.append(min(255, round(40 + x + blob)))
+        (folder / f"f_{t:03}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+    return folder
+
+
+class Decompose(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.video = write_pictures(self.folder / "video")
+        self.target = self.folder / "out"
+
+    def decompose(self, *arguments):
+        return self.one_json_object("particles", "decompose", self.video, "-o", self.target, *arguments)
+
+    def test_one_frame(self):
+        report = self.decompose("--counts", "5,20", "--min-coefficient", "0")
+        (frame,) = report["frames"]
+        self.assertEqual(frame["frame"], 4, "the middle one")
+        self.assertEqual(frame["background"], "median")
+        few, many = (stage["psnr"] for stage in frame["stages"])
+        self.assertGreater(few, frame["background_psnr"] + 10)
+        self.assertGreater(many, few)
+        self.assertEqual(json.loads((self.target / "decomposition.json").read_text())["frames"], report["frames"])
+        lines = (self.target / "bases_0005.csv").read_text().splitlines()
+        self.assertEqual(lines[0], "frame,idx,kind,x,y,scale,angle,coefficient")
+        self.assertEqual(lines[1].split(",")[2], "gaussian")
+        self.assertAlmostEqual(float(lines[1].split(",")[3]), 20, delta=0.2)
+        self.assertAlmostEqual(float(lines[1].split(",")[4]), 16, delta=0.2)
+        self.assertAlmostEqual(float(lines[1].split(",")[5]), 2, delta=0.2)
+        for name in ["observed", "background", "reconstruction_0020", "sketch_0020", "figure"]:
+            self.assertTrue((self.target / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_all_frames(self):
+        report = self.decompose("--all", "--counts", "10")
+        self.assertEqual([frame["frame"] for frame in report["frames"]], list(range(9)))
+        self.assertEqual((self.target / "bases.csv").read_text().splitlines()[-1].split(",")[0], "8")
+        self.assertGreater((self.target / "reconstruction_0010.mp4").stat().st_size, 500)
+        again = self.folder / "again"
+        self.succeed("particles", "decompose", self.video, "-o", again, "--all", "--counts", "10", "--jobs", "1")
+        for name in ["bases.csv", "reconstruction_0010.mp4", "sketch_0010.mp4"]:
+            self.assertEqual((self.target / name).read_bytes(), (again / name).read_bytes(), name)
+
+    def test_a_frame_and_the_papers_way(self):
+        report = self.decompose("--frame", "0", "--dictionary", "paper", "--background", "flat", "--counts", "30")
+        self.assertEqual(report["frames"][0]["frame"], 0)
+        self.assertNotIn("gaussian", (self.target / "bases_0030.csv").read_text())
+
+    def test_nothing_is_overwritten_without_force(self):
+        self.target.mkdir()
+        (self.target / "observed.png").write_text("old")
+        arguments = ("particles", "decompose", self.video, "-o", self.target, "--counts", "5")
+        self.fail_with(2, *arguments, saying="--force")
+        self.assertEqual((self.target / "observed.png").read_text(), "old")
+        self.succeed(*arguments, "--force")
+        self.assertNotEqual((self.target / "observed.png").read_bytes(), b"old")
+        self.assertEqual(self.files(), ["out", "video"])
+
+    def test_dry_run_and_quiet(self):
+        self.succeed("particles", "decompose", self.video, "-o", self.target, "--dry-run")
+        self.assertFalse(self.target.exists())
+        result = self.succeed("particles", "decompose", self.video, "-o", self.target, "--counts", "5", "--quiet")
+        self.assertEqual(result.stderr, "")
+
+    def test_bad_requests(self):
+        text, pointer, empty = (self.folder / name for name in ("text.mp4", "pointer.mp4", "empty.mp4"))
+        text.write_text("no video\n")
+        pointer.write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n")
+        empty.write_bytes(b"")
+        for video, arguments, saying in [
+            (text, [], "text file"),
+            (pointer, [], "git lfs pull"),
+            (empty, [], "empty"),
+            (self.folder / "missing.mp4", [], "cannot be read"),
+            (self.folder / "f_%03d.png", [], "no file fits"),
+            (self.video, ["--frame", "9"], "no frame 9"),
+            (self.video, ["--frame", "1", "--all"], "exclude"),
+            (self.video, ["--counts", "0"], "counts"),
+            (self.video, ["--counts", "x"], "counts"),
+            (self.video, ["--refine-steps", "-1"], "refine"),
+            (self.video, ["--background", "green"], "background"),
+        ]:
+            self.fail_with(2, "particles", "decompose", video, "-o", self.target, *arguments, saying=saying)
+        self.fail_with(2, "particles", "decompose", self.video, "-o", self.folder / "no" / "such", saying="no folder")
+
+
+class Score(CommandTest):
+    def write(self, name, rows, heading="frame,id,x,y,amp"):
+        path = self.folder / name
+        path.write_text("\n".join([heading, *rows]) + "\n")
+        return path
+
+    def test_score(self):
+        truth = self.write("truth.csv", [f"{t},1,{t},5,100" for t in range(10)] + ["10,1,10,5,0", "11,1,99,5,100"])
+        tracks = self.write("tracks.csv", [f"{t},7,{t},8" for t in range(10)], "frame,track,x,y")
+        score = self.one_json_object("particles", "score", "--truth", truth, "--tracks", tracks, "--size", "20x20")
+        self.assertAlmostEqual(score["alpha"], 0.4)
+        self.assertAlmostEqual(score["beta"], 0.4)
+        self.assertAlmostEqual(score["rmse"], 3)
+        self.assertEqual(score["jsc_tracks"], 1)
+        perfect = self.one_json_object("particles", "score", "--truth", truth, "--tracks", truth)
+        self.assertEqual(perfect["beta"], 1)
+
+    def test_bad_requests(self):
+        good = self.write("good.csv", ["0,1,2,3,4"])
+        for rows, heading, saying in [
+            ([], "frame,x,y", "good|bad.csv:1"),
+            (["0,1,oops,3,4"], "frame,id,x,y,amp", "bad.csv:2"),
+            (["0,1,2,3,4", "0,1,2,3,4"], "frame,id,x,y,amp", "twice"),
+        ]:
+            bad = self.write("bad.csv", rows, heading)
+            self.fail_with(2, "particles", "score", "--truth", good, "--tracks", bad, saying=saying)
+        self.fail_with(2, "particles", "score", "--truth", good, "--tracks", good, "--gate", "0", saying="gate")
+        self.fail_with(2, "particles", "score", "--truth", good, "--tracks", good, "--size", "9", saying="size")
+        empty = self.write("empty.csv", [])
+        self.fail_with(2, "particles", "score", "--truth", empty, "--tracks", good, saying="no visible point")
+
+
+if __name__ == "__main__":
+    unittest.main()
