@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "motex/core/options_check.h"
 #include "motex/motion/foot_fix.h"
@@ -15,20 +16,42 @@ namespace motex {
 namespace {
 
 constexpr double kFar = 2;                     // usual jump distances
+constexpr double kDull = 0.05;                 // deviations of liveliness below the mean of the examples
 constexpr double kSlides = 1.5;                // a root that goes so much farther than its examples lets feet slide
 constexpr std::uint64_t kMostVariations = 16;  // ways that are tried where the root has somewhere to go
 
-Plan plan_stretch(const ChoreographyPlanner& planner, const Station& from, const Station& to,
-                  const ChoreographyOptions& options, std::uint64_t variation, const JobContext& job) {
+PlanRequest plan_request(const Station& from, const Station& to, const ChoreographyOptions& options) {
   PlanRequest request;
   request.start = from.poses;
   request.end = to.poses;
   request.num_frames = to.frame + 2 - from.frame;
   request.stretch = options.stretch;
   request.nearness = options.nearness;
-  request.variation = variation;
+  return request;
+}
+
+/// The way from station to station. The likeliest dance keeps to slow parts, where everything is near everything:
+/// lively examples are made cheaper until the dance is as lively as the mean of all examples. What a second of
+/// liveliness is worth stays for other variations of the same stretch.
+Plan plan_stretch(const ChoreographyPlanner& planner, const Station& from, const Station& to, PlanRequest& request,
+                  const ChoreographyOptions& options, const JobContext& job) {
   try {
-    return planner.plan(request, job);
+    Plan best = planner.plan(request, job);
+    double liveliness = planner.mean_liveliness(best);
+    if (!options.lively || request.variation != 0) return best;
+    for (const double worth : {0.25, 0.5, 1.0, 1.5, 2.0, 3.0}) {
+      if (liveliness >= -kDull) break;
+      const double before = std::exchange(request.liveliness, worth);
+      Plan next = planner.plan(request, job);
+      const double now = planner.mean_liveliness(next);
+      if (now <= liveliness && next.cost > best.cost) {
+        request.liveliness = before;
+        continue;
+      }
+      best = std::move(next);
+      liveliness = now;
+    }
+    return best;
   } catch (const InvalidInput& error) {
     throw InvalidInput(from.name + " to " + to.name + ": " + error.what());
   }
@@ -66,12 +89,14 @@ struct Take {
 };
 
 Take play_take(const MotionTexture& model, const ChoreographyPlanner& planner, const std::vector<Station>& stations,
-               const ChoreographyOptions& options, std::uint64_t variation, const JobContext& job) {
+               std::vector<PlanRequest>& requests, const ChoreographyOptions& options, std::uint64_t variation,
+               const JobContext& job) {
   Take take;
   take.features.resize(stations.back().frame + 2, model.features.size());
   SegmentSynthesis segments(model, options);
   for (std::size_t k = 0; k + 1 < stations.size(); ++k) {
-    const Plan plan = plan_stretch(planner, stations[k], stations[k + 1], options, variation, job);
+    requests[k].variation = variation;
+    const Plan plan = plan_stretch(planner, stations[k], stations[k + 1], requests[k], options, job);
     play_stretch(model, plan, stations[k], stations[k + 1], segments, take.features);
     append(plan, stations[k].frame, take.report);
     if (k == 0) take.report.start_distance = plan.start_distance;
@@ -96,12 +121,16 @@ void bend_take(const MotionTexture& model, const ChoreographyRequest& request, c
 Take best_take(const MotionTexture& model, const ChoreographyRequest& request, const std::vector<Station>& stations,
                RootPlace start, const ChoreographyOptions& options, const JobContext& job) {
   const ChoreographyPlanner planner(model);
-  if (request.at.empty() && request.avoid.empty()) return play_take(model, planner, stations, options, 0, job);
+  std::vector<PlanRequest> requests;
+  for (std::size_t k = 0; k + 1 < stations.size(); ++k)
+    requests.push_back(plan_request(stations[k], stations[k + 1], options));
+  if (request.at.empty() && request.avoid.empty())
+    return play_take(model, planner, stations, requests, options, 0, job);
   Take best;
   std::string failure;
   const auto cost = [](const Take& take) { return take.report.cost + take.report.path.cost; };
   for (std::uint64_t variation = 0; variation < kMostVariations; ++variation) {
-    Take take = play_take(model, planner, stations, options, variation, job);
+    Take take = play_take(model, planner, stations, requests, options, variation, job);
     job.progress("dancing", static_cast<double>(variation + 1) / static_cast<double>(kMostVariations));
     try {
       bend_take(model, request, stations, start, options, take);

@@ -52,6 +52,7 @@ struct ChoreographyRequest {
 
 struct ChoreographyOptions : PlayOptions {
   double stretch = 0.15;
+  bool lively = true;
   BendPathOptions path;
   ReachOptions reach;
 
@@ -60,6 +61,8 @@ struct ChoreographyOptions : PlayOptions {
     PlayOptions::visit_fields(self, visit);
     visit(Field{"stretch", "", "how much longer or shorter than itself an example may be played"}, self.stretch,
           Range{0, 1});
+    visit(Field{"lively", "", "as lively as the examples are; else the likeliest dance, which is slower"}, self.lively,
+          Range{});
     BendPathOptions::visit_fields(self.path, visit);
     ReachOptions::visit_fields(self.reach, visit);
   }

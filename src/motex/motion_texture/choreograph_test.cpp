@@ -156,9 +156,10 @@ TEST(Choreograph, AStretchOfTheSourceIsTheLikeliestDanceBetweenItsEnds) {
   ChoreographyOptions options;
   options.foot_fix = options.floor_fix = false;
   options.noise = 1e-9;
+  options.lively = false;
   ChoreographyReport report;
   const Clip dance = choreograph(model(), wanted, options, report);
-  EXPECT_LT(report.start_distance + report.end_distance, 1e-9);
+  EXPECT_LT(report.start_distance + report.end_distance, 1e-6);
   EXPECT_LT((dance.rotations - slice(clips()[0], 100, 221).rotations).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((dance.translations - slice(clips()[0], 100, 221).translations).cwiseAbs().maxCoeff(), 0.05);
 }
@@ -174,6 +175,7 @@ TEST(Choreograph, TheSourceSlowerOrFasterGoesTheSameWay) {
     ChoreographyOptions options;
     options.foot_fix = options.floor_fix = false;
     options.noise = 1e-9;
+    options.lively = false;
     ChoreographyReport report;
     const Clip dance = choreograph(model(), wanted, options, report);
     const RootPlace end = root_place(model().features, dance, n - 1);
@@ -224,10 +226,10 @@ TEST(Choreograph, EndsAreThoseOfTheSourceFile) {
     const auto height_error = [&](Index t, const Clip& clip, Index u) {
       return std::abs(dance.translation(t, 0).y() - clip.translation(u, 0).y());
     };
-    EXPECT_LT(height_error(0, clips()[0], 130), 1e-6);
-    EXPECT_LT(height_error(1, clips()[0], 131), 1e-6);
-    EXPECT_LT(height_error(n - 2, clips()[2], 309), 1e-6);
-    EXPECT_LT(height_error(n - 1, clips()[2], 310), 1e-6);
+    EXPECT_LT(height_error(0, clips()[0], 130), 1e-9);
+    EXPECT_LT(height_error(1, clips()[0], 131), 1e-9);
+    EXPECT_LT(height_error(n - 2, clips()[2], 309), 1e-9);
+    EXPECT_LT(height_error(n - 1, clips()[2], 310), 1e-9);
     for (int j = 1; j < dance.skeleton.num_joints(); ++j) {
       EXPECT_LT(angle_between(dance.rotation(0, j), clips()[0].rotation(130, j)), 1e-6);
       EXPECT_LT(angle_between(dance.rotation(n - 1, j), clips()[2].rotation(310, j)), 1e-6);
@@ -396,7 +398,7 @@ TEST(ChoreographyPlanner, FindsAWayWheneverThereIsOne) {
   const ChoreographyPlanner planner(m);
   int num_refused = 0, num_short = 0;
   for (const double stretch : {0.0, 0.15})
-    for (const Index start : {7, 333, 812})
+    for (const Index start : {7, 812})
       for (const Index end : {60, 1200, 1937}) {
         const std::vector<bool> reachable = reachable_lengths(start, end, stretch, 330);
         PlanRequest wanted{poses_at(m, start), poses_at(m, end), 0, stretch, 1};

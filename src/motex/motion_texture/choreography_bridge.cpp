@@ -15,7 +15,9 @@ constexpr Index kStepChannels[] = {0, 1, 3};
 }  // namespace
 
 PlanPoses poses_at(const MotionTexture& model, Index row) {
-  return {model.corpus.middleRows(row, 2).cast<double>(), row};
+  PlanPoses out{model.corpus.middleRows(row, 2).cast<double>(), row};
+  if (model.heights.size() == model.corpus.rows()) out.features.col(2) = model.heights.segment(row, 2);
+  return out;
 }
 
 int instance_at(const MotionTexture& model, Index row) {

@@ -9,6 +9,7 @@
 
 #include "motex/core/rng.h"
 #include "motex/motion_texture/jumps.h"
+#include "motex/motion_texture/liveliness.h"
 
 namespace motex {
 namespace {
@@ -88,7 +89,8 @@ struct ChoreographyPlanner::Search {
   bool rest_is_exit_ = false;  ///< start and end lie in one instance
   int exit_instance_ = -1;
   std::vector<Source> sources_;
-  std::vector<double> extra_;  ///< by instance: PlanRequest::variation
+  const std::vector<double>& liveliness_;
+  std::vector<double> extra_;  ///< by instance: PlanRequest::variation and liveliness
   std::vector<double> begun_, done_;
 };
 
@@ -102,7 +104,8 @@ ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const Ed
       least_bent_(std::max<Index>(8, planner.min_frames_ / 2)),
       horizon_(horizon),
       width_(static_cast<std::size_t>(horizon + 1)),
-      rest_(static_cast<int>(model_.instances.size())) {
+      rest_(static_cast<int>(model_.instances.size())),
+      liveliness_(planner.liveliness_) {
   for (const Instance& a : model_.instances)
     sources_.push_back(stretched(a.row, hand_over_row(model_, a) + 2 - a.row, wanted.stretch, min_frames_));
   draw_extra_costs();
@@ -116,9 +119,12 @@ ChoreographyPlanner::Search::Search(const ChoreographyPlanner& planner, const Ed
 
 void ChoreographyPlanner::Search::draw_extra_costs() {
   extra_.assign(model_.instances.size(), 0);
-  if (wanted_.variation == 0) return;
   Rng rng(wanted_.variation);
-  for (double& extra : extra_) extra = kVariation * rng.uniform();
+  if (wanted_.variation != 0)
+    for (double& extra : extra_) extra = kVariation * rng.uniform();
+  for (std::size_t b = 0; b < extra_.size(); ++b)
+    extra_[b] -=
+        wanted_.liveliness * liveliness_[b] * static_cast<double>(sources_[b].length) * model_.frame_time_secs();
 }
 
 /// A rest too short to play goes on into the instance after it.
@@ -270,7 +276,17 @@ ChoreographyPlanner::ChoreographyPlanner(const MotionTexture& model)
       tau_(usual_jump_distance(model)),
       min_frames_(std::max<Index>(5, std::lround(model.options.min_duration / model.frame_time_secs()))),
       fastest_(fastest_step(model)),
+      liveliness_(liveliness(model)),
       edges_(edges(kMostFollowers)) {}
+
+double ChoreographyPlanner::mean_liveliness(const Plan& plan) const {
+  double sum = 0, frames = 0;
+  for (const PlannedSegment& s : plan.segments) {
+    sum += liveliness_[at(s.instance)] * static_cast<double>(s.piece.length);
+    frames += static_cast<double>(s.piece.length);
+  }
+  return frames > 0 ? sum / frames : 0;
+}
 
 ChoreographyPlanner::Edges ChoreographyPlanner::edges(std::size_t num_followers) const {
   const int n = static_cast<int>(model_.instances.size());
@@ -311,13 +327,14 @@ ChoreographyPlanner::Edges ChoreographyPlanner::edges(std::size_t num_followers)
 Plan ChoreographyPlanner::plan(const PlanRequest& request, const JobContext& job) const {
   if (request.num_frames < 2) throw InvalidInput("a way from pose to pose has at least 2 frames");
   const Index wanted = request.num_frames - 2;
-  const ChoreographyBridge bridge(model_, request, tau_ * request.nearness, fastest_);
   const auto search = [&](const Edges& graph) {
     Search found(*this, graph, request, wanted);
     found.fill(job);
     return found.cost_of(wanted) < kNever ? found.trace(wanted) : Plan{{}, kNever, 0, 0, 0};
   };
   Plan best = search(edges_);
+  if (best.cost < kNever && request.num_frames > 2 * min_frames_) return best;
+  const ChoreographyBridge bridge(model_, request, tau_ * request.nearness, fastest_);
   if (request.num_frames <= 2 * min_frames_) {
     Plan bridged = bridge.plan(request.num_frames);
     if (bridged.cost < best.cost) best = std::move(bridged);

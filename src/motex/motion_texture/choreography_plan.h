@@ -26,6 +26,8 @@ class ChoreographyPlanner {
  public:
   explicit ChoreographyPlanner(const MotionTexture& model);
   Plan plan(const PlanRequest& request, const JobContext& job = {}) const;
+  /// Mean z (liveliness.h) of what a plan plays, by frames.
+  double mean_liveliness(const Plan& plan) const;
 
  private:
   struct Edge {
@@ -44,6 +46,7 @@ class ChoreographyPlanner {
   double tau_;
   Index min_frames_;
   double fastest_;
+  std::vector<double> liveliness_;
   Edges edges_;
 };
 

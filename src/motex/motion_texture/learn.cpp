@@ -137,6 +137,7 @@ MotionTexture learn_motion_texture(std::span<const Clip> clips, const LearnOptio
   model.global_subspace = fitter.shared();
   model.global_statistics = fitter.shared_statistics();
   model.corpus = corpus.features.cast<float>();
+  model.heights = corpus.features.col(2);
   model.runs = corpus.runs;
   find_places(clips, model);
   for (const Clip& clip : clips) {

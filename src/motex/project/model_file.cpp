@@ -263,6 +263,9 @@ void write_examples(ArchiveWriter& out, const MotionTexture& model) {
   out.add("clip_names", join_lines(model.clip_names));
   out.add("clip_lengths", Ints(model.clip_lengths.begin(), model.clip_lengths.end()));
   out.add("corpus", model.corpus);
+  if (model.heights.size() > 0)
+    out.add("corpus_heights",
+            std::span<const double>(model.heights.data(), static_cast<std::size_t>(model.heights.size())));
   Ints runs, instances;
   for (const Run& run : model.runs) runs.insert(runs.end(), {run.clip_idx, run.clip_start, run.length});
   for (const Instance& x : model.instances) instances.insert(instances.end(), {x.texton, x.run_idx, x.row, x.length});
@@ -324,6 +327,10 @@ void read_examples(const ArchiveReader& in, MotionTexture& model) {
     model.clip_lengths.push_back(n);
   }
   model.corpus = in.matrix_f("corpus", -1, model.features.size());
+  if (in.has("corpus_heights")) {
+    const auto heights = in.doubles("corpus_heights", model.corpus.rows());
+    model.heights = Eigen::Map<const Vector>(heights.data(), static_cast<Index>(heights.size()));
+  }
   read_runs(in, model);
 }
 
