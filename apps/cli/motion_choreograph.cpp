@@ -95,6 +95,7 @@ struct Choreograph {
   std::vector<std::string> outputs, via, at, avoid, reach;
   std::int64_t frames = 0;
   ChoreographyOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -115,11 +116,13 @@ struct Choreograph {
                     reach);
     arguments.section("How");
     arguments.options(options);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     const ChoreographyRequest request = parse_request();
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     if (session.flags.dry_run) return report_dry_run(model, request, session);
     ChoreographyReport report;
@@ -127,7 +130,7 @@ struct Choreograph {
     ClipPicture picture;
     picture.title = start + " → " + end;
     picture.spans = spans_of(model, report, clip.num_frames());
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 std::to_string(report.played.size()) + " textons, seed " + std::to_string(options.seed));
     session.result(report_value(model, clip, report, session), table(model, report));

@@ -90,6 +90,7 @@ struct Edit {
   TextonExample example;
   ReadClipOptions read;
   EditOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -111,6 +112,7 @@ struct Edit {
     arguments.options(read);
     arguments.section("How");
     arguments.options(options);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
@@ -119,6 +121,7 @@ struct Edit {
     if (set.empty() && turn.empty() && raise.empty() && pose.empty())
       throw InvalidInput("nothing to edit: give --turn, --set, --raise or --pose");
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     std::vector<PoseEdit> edits;
@@ -133,7 +136,7 @@ struct Edit {
     picture.title = described(source_of(model, instance)) + ", edited";
     picture.spans = {{model.instances[static_cast<std::size_t>(instance)].texton, 0, clip.num_frames(),
                       described(source_of(model, instance))}};
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 std::to_string(edits.size()) + (edits.size() == 1 ? " edit" : " edits") + ", seed " +
                 std::to_string(options.seed));

@@ -23,6 +23,7 @@ struct Inbetween {
   bool join = false;
   InbetweenOptions options;
   ReadClipOptions read;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -39,12 +40,14 @@ struct Inbetween {
     arguments.options(options);
     arguments.section("Reading clips");
     arguments.options(read);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     const ClipFrame first = parse_clip_frame("--from", from), last = parse_clip_frame("--to", to);
     if (frames < 1 || frames > 1'000'000) throw InvalidInput("--frames: a gap has 1 to 1000000 frames");
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const Clip before = clip_beside(model, first, Beside::kUpTo, read, session);
     const Clip after = clip_beside(model, last, Beside::kFrom, read, session);
@@ -56,7 +59,7 @@ struct Inbetween {
     if (session.flags.dry_run) return report_dry_run(clip.num_frames(), session);
     ClipPicture picture;
     picture.title = from + " → " + to;
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames" +
                 (join ? ", the gap from frame " + std::to_string(gap_start) + " on" : ""));
     session.result(report_value(clip, gap_start, report, session), table(report));

@@ -39,6 +39,7 @@ struct FindPath {
   int num_textons = 0;
   std::vector<std::string> outputs;
   SynthesizeOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -54,10 +55,12 @@ struct FindPath {
                     outputs);
     arguments.section("How it is danced");
     arguments.options(options);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const TextonPaths paths =
         find_texton_paths(model, texton_number(model, "--from", from), texton_number(model, "--to", to), num_textons);
@@ -81,7 +84,7 @@ struct FindPath {
     clip.name = "path_" + path_text(path);
     ClipPicture picture;
     picture.spans = played_spans(model, report, clip.num_frames());
-    for (const std::string& output : outputs) write_clip_output(output, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, seed " +
                 std::to_string(options.seed));
     object["frames"] = std::int64_t{clip.num_frames()};

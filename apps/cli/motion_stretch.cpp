@@ -19,6 +19,7 @@ struct Stretch {
   TextonExample example;
   std::int64_t frames = 0;
   StretchOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -28,11 +29,13 @@ struct Stretch {
         .required = true;
     arguments.section("How");
     arguments.options(options);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     example.check();
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     if (session.flags.dry_run) return report_dry_run(session);
@@ -41,7 +44,7 @@ struct Stretch {
     ClipPicture picture;
     picture.title = described(source_of(model, instance)) + " in " + std::to_string(frames) + " frames";
     picture.spans = spans_of(model, report);
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(report.source_length) + " frames in " +
                 std::to_string(frames) + ", at " + fixed(report.speed_ratio, 3) + " of the speed, seed " +
                 std::to_string(options.seed));

@@ -18,6 +18,7 @@ struct Vary {
   std::vector<std::string> outputs;
   TextonExample example;
   VaryOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -26,11 +27,13 @@ struct Vary {
         .required = true;
     arguments.section("How");
     arguments.options(options);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     example.check();
     check_outputs(outputs, clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     if (session.flags.dry_run) return report_dry_run(session);
@@ -40,7 +43,7 @@ struct Vary {
     picture.title = described(source_of(model, instance)) + ", seed " + std::to_string(options.seed);
     picture.spans = {{model.instances[static_cast<std::size_t>(instance)].texton, 0, clip.num_frames(),
                       described(source_of(model, instance))}};
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
+    write_clip_outputs(outputs, clip, picture, adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 fixed(report.mean_distance, 1) + " cm from the example on average, " +
                 fixed(report.largest_distance, 1) + " cm at frame " + std::to_string(report.farthest_frame) +

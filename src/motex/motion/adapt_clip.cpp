@@ -213,7 +213,12 @@ Clip adapt_clip(Clip clip, const AdaptClipOptions& options, const JobContext& jo
     clip = with_root_bone(clip);
     keep.insert(keep.begin(), 1);
   }
-  if (std::find(keep.begin(), keep.end(), 0) != keep.end()) clip = keep_joints(clip, keep);
+  const bool subset = std::find(keep.begin(), keep.end(), 0) != keep.end();
+  if (clip.skeleton.skin && (subset || options.scale != 1)) {
+    job.warn(clip.name + ": its skin does not fit the changed body and is left out");
+    clip.skeleton.skin = nullptr;
+  }
+  if (subset) clip = keep_joints(clip, keep);
   job.check_cancelled();
   if (options.out_fps > 0 && std::abs(options.out_fps * clip.frame_time_secs - 1) > 1e-9)
     clip = resample(clip, 1 / options.out_fps);
