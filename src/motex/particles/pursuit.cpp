@@ -26,16 +26,22 @@ class Pursuit {
 
   /// Finds bases until there are `count`.
   void grow(int count, int last_count) {
+    constexpr int kMostRejections = 500;
+    int num_rejected = 0;
     while (!exhausted_ && static_cast<int>(fitted_.size()) < count) {
       job_.check_cancelled();
       if (fitted_.size() % 50 == 0) job_.progress("matching pursuit", static_cast<double>(fitted_.size()) / last_count);
       float response = 0;
       const Base found = tiles_.strongest(response);
+      exhausted_ = !(std::abs(response) > options_.min_coefficient) || num_rejected > kMostRejections;
+      if (exhausted_) break;
       FittedBase base = refine_base(residual_, found, options_.refine_steps);
-      if (!(std::abs(base.coefficient) > options_.min_coefficient)) {
-        exhausted_ = true;
-        break;
+      if (!(std::abs(base.coefficient) > std::max(options_.min_coefficient, 0.5 * std::abs(response)))) {
+        tiles_.reject_strongest();
+        ++num_rejected;
+        continue;
       }
+      num_rejected = 0;
       add_patch(residual_, base.patch, -base.coefficient);
       tiles_.changed(residual_, base.patch);
       fitted_.push_back(std::move(base));

@@ -144,6 +144,26 @@ TEST(Pursuit, MoreBasesAreBetterAndRoundsHelp) {
   EXPECT_LT(before, energy(difference(scene.image, reconstruct(on_grid, {Plane(160, 120)})[0])));
 }
 
+TEST(Pursuit, CoarseLevelsDoNotEndTheSearch) {
+  Plane image(160, 120);
+  Rng rng(9);
+  for (int j = 0; j < 12; ++j)
+    add_patch(image,
+              render_patch({BaseKind::kGaborCos,
+                            160 * rng.uniform(),
+                            120 * rng.uniform(),
+                            5 + 3 * rng.uniform(),
+                            3 * rng.uniform(),
+                            {}},
+                           160, 120),
+              2000);
+  for (float& value : image.values) value += static_cast<float>(3 * rng.normal());
+  PursueOptions on_grid;
+  on_grid.num_bases = 300;
+  on_grid.refine_steps = 0;
+  EXPECT_EQ(pursue({image}, on_grid).bases.size(), 300U) << "noise alone holds more than that";
+}
+
 TEST(Pursuit, ColourSharesGeometry) {
   Planes image(3, Plane(64, 64));
   const Base red{BaseKind::kGaussian, 20, 20, 2, 0, {}}, blue{BaseKind::kGaussian, 44, 40, 1.5, 0, {}};

@@ -30,7 +30,7 @@ ResponseTiles::ResponseTiles(Dictionary dictionary, int width, int height)
     tiles_across_.push_back((level_width + kTileSide - 1) / kTileSide);
     for (int top = 0; top < level_height; top += kTileSide)
       for (int left = 0; left < level_width; left += kTileSide)
-        tiles_.push_back({static_cast<int>(k), left, top, 0, 0, 0, 0, true});
+        tiles_.push_back({static_cast<int>(k), left, top, 0, 0, 0, 0, true, {}});
     most = std::max(most, bank_[k].bases.size());
   }
   first_tile_.push_back(static_cast<int>(tiles_.size()));
@@ -41,6 +41,7 @@ void ResponseTiles::set_residual(const Plane& residual) {
   pyramid_ = gaussian_pyramid(residual, bank_.back().level + 1);
   for (Tile& tile : tiles_) {
     tile.stale = true;
+    tile.rejected.clear();
     tile.response = 1e30F;
   }
 }
@@ -66,8 +67,11 @@ void ResponseTiles::changed(const Plane& residual, const BasePatch& patch) {
       const int first_y = tile_of(patch.top + inset_y, -kInfluence, down);
       const int last_y = tile_of(patch.top + patch.height - inset_y, kInfluence, down);
       for (int y = first_y; y <= last_y; ++y)
-        for (int x = first_x; x <= last_x; ++x)
-          tiles_[static_cast<std::size_t>(first_tile_[b] + y * across + x)].stale = true;
+        for (int x = first_x; x <= last_x; ++x) {
+          Tile& tile = tiles_[static_cast<std::size_t>(first_tile_[b] + y * across + x)];
+          tile.stale = true;
+          tile.rejected.clear();
+        }
     }
   }
 }
@@ -104,6 +108,9 @@ void ResponseTiles::compute(Tile& tile) {
     const bool inside = x < plane.width && y < plane.height;
     for (int j = 0; j < num; ++j, ++response) {
       if (!inside || std::abs(*response) <= std::abs(tile.response)) continue;
+      if (!tile.rejected.empty() &&
+          std::find(tile.rejected.begin(), tile.rejected.end(), k * static_cast<int>(num) + j) != tile.rejected.end())
+        continue;
       tile.response = *response;
       tile.x = x;
       tile.y = y;
@@ -121,6 +128,7 @@ Base ResponseTiles::strongest(float& response) {
       compute(*best);
       continue;
     }
+    strongest_ = best;
     const LevelFilters& filters = bank_[static_cast<std::size_t>(best->level_idx)];
     Base base = filters.bases[static_cast<std::size_t>(best->filter)];
     base.x = best->x * filters.step;
@@ -128,6 +136,13 @@ Base ResponseTiles::strongest(float& response) {
     response = best->response;
     return base;
   }
+}
+
+void ResponseTiles::reject_strongest() {
+  Tile& tile = *strongest_;
+  const auto num = static_cast<int>(bank_[static_cast<std::size_t>(tile.level_idx)].bases.size());
+  tile.rejected.push_back((tile.x - tile.left + kTileSide * (tile.y - tile.top)) * num + tile.filter);
+  tile.stale = true;
 }
 
 }  // namespace motex

@@ -21,6 +21,9 @@ class ResponseTiles {
   void changed(const Plane& residual, const BasePatch& patch);
   /// The base with the largest |response|; response = its coefficient, 0 when there is nothing left.
   Base strongest(float& response);
+  /// The base just given is no good (responses of coarse levels are near the truth, not exact): leave it out until its
+  /// surroundings change.
+  void reject_strongest();
 
  private:
   struct Tile {
@@ -28,6 +31,7 @@ class ResponseTiles {
     float response = 0;                    ///< signed
     int x = 0, y = 0, filter = 0;
     bool stale = true;
+    std::vector<int> rejected;  ///< place · filters + filter
   };
   void compute(Tile& tile);
   void copy_windows(const Plane& plane, const Tile& tile);
@@ -35,6 +39,7 @@ class ResponseTiles {
   std::vector<LevelFilters> bank_;
   std::vector<Plane> pyramid_;
   std::vector<Tile> tiles_;
+  Tile* strongest_ = nullptr;
   std::vector<int> first_tile_, tiles_across_;
   std::vector<float> windows_, responses_;
 };
