@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "clip_output.h"
 #include "closest.h"
 #include "commands.h"
 #include "model_sources.h"
-#include "motex/motion_texture/beats.h"
-#include "motex/motion_texture/synthesize.h"
+#include "motex/motion/crowd.h"
+#include "motex/project/dance.h"
 #include "motex/project/load_beats.h"
 #include "motex/project/model_file.h"
 #include "options_value.h"
@@ -22,6 +23,7 @@ namespace motex::cli {
 namespace {
 
 constexpr double kMaxFrames = 2e7;
+constexpr double kApartCm = 100;
 
 /// Learns anew where the feet stand, from the model's own examples, with these joints as feet.
 void name_feet(MotionTexture& model, const std::vector<std::string>& names, const JobContext& job) {
@@ -32,13 +34,16 @@ void name_feet(MotionTexture& model, const std::vector<std::string>& names, cons
 }
 
 struct Synthesize {
-  std::string model_path, path_text, feet_text, texton_text, beats_path, skin_path;
+  std::string model_path, path_text, feet_text, texton_text, beats_path, skin_path, loop_step;
   std::vector<std::string> outputs;
   std::int64_t frames = 0;
   double secs = 0;
   bool has_frames = false, has_secs = false;
-  bool unconstrained = false;
+  bool unconstrained = false, loop = false;
+  int dancers = 1;
+  double speed = 1;
   SynthesizeOptions options;
+  AdaptClipOptions adapt;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
@@ -55,6 +60,15 @@ struct Synthesize {
     arguments.value("--beats", "FILE",
                     "textons begin on these beats: a time in seconds a line, or music to be listened to (.wav)",
                     beats_path);
+    arguments.toggle("--loop", "the first frame follows the last", loop);
+    arguments.value("--loop-step", "X,Z,HEADING",
+                    "where the next round of a loop begins, seen from where this one began, heading in degrees "
+                    "(default: in place)",
+                    loop_step);
+    arguments.value("--dancers", "K",
+                    "several, with this seed and the following: OUT-1.bvh …, and one page, picture or .glb of all",
+                    dancers);
+    arguments.value("--speed", "X", "times as fast as the examples, 0.25 to 4 (default 1)", speed);
     arguments.toggle("--unconstrained", "one texton by its dynamics and noise alone, without end poses (with --texton)",
                      unconstrained);
     arguments.value("--texton", "T", "that one, by number or name", texton_text);
@@ -62,11 +76,13 @@ struct Synthesize {
     arguments.options(options);
     arguments.value("--feet", "NAME,…", "the joints that are feet, one a leg (default: found by the model)", feet_text);
     declare_skin(arguments, skin_path);
+    declare_adapt(arguments, adapt);
   }
 
   void run(Session& session) {
     check_request();
-    check_outputs(outputs, clip_output_extensions(), session);
+    check_outputs(written_paths(), clip_output_extensions(), session);
+    check_adapt(adapt, outputs);
     MotionTexture model = load_model(model_path);
     const Index num_frames = wanted_frames(model.frame_time_secs());
     const std::vector<int> textons = texton_numbers(model, "--path", split_at_commas(path_text));
@@ -75,19 +91,15 @@ struct Synthesize {
     put_on_skin(skin_path, model.features.skeleton, session);
     if (session.flags.dry_run) return report_dry_run(num_frames, session);
     if (!feet_text.empty()) name_feet(model, split_at_commas(feet_text), session.job(0, 0.1));
-    SynthesizeReport report;
-    Clip clip = unconstrained ? synthesize_unconstrained(model, texton, num_frames, options, report)
-                              : synthesize_motion(model, num_frames, textons, options, report, session.job(0, 0.9));
-    clip.name = std::filesystem::path(model_path).stem().string() + "_seed" + std::to_string(options.seed);
-    ClipPicture picture;
-    picture.spans = played_spans(model, report, clip.num_frames());
-    for (const std::string& path : outputs) write_clip_output(path, clip, picture, session);
-    session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
+    std::vector<Dance> dances = dance(model, num_frames, textons, texton, session);
+    const std::string stem = std::filesystem::path(model_path).stem().string();
+    for (Dance& dance : dances) dance.clip.name = stem + "_seed" + std::to_string(dance.seed);
+    write(model, dances, session);
+    const Clip& clip = dances[0].clip;
+    session.say("wrote " + enumerate(written_paths()) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 fixed(static_cast<double>(clip.num_frames()) * clip.frame_time_secs, 1) + " s, " +
-                std::to_string(report.played.size()) + " textons, seed " + std::to_string(options.seed));
-    Value object = report_value(model, clip, report, session);
-    if (!options.beats.empty()) object["beats"] = beats_value(report_beats(model, report.played, options.beats));
-    session.result(object, "");
+                std::to_string(dances[0].report.played.size()) + " textons, seed " + std::to_string(options.seed));
+    session.result(report_value(model, dances, session), "");
   }
 
  private:
@@ -111,8 +123,14 @@ struct Synthesize {
     if (!has_length && path_text.empty()) throw InvalidInput("--frames N, --secs S or --path missing; see --help");
     if (unconstrained && (texton_text.empty() || !has_length || !path_text.empty()))
       throw InvalidInput("--unconstrained goes with --texton T and --frames N or --secs S, without --path");
-    if (unconstrained && !beats_path.empty())
-      throw InvalidInput("--beats goes with textons in turn, not --unconstrained");
+    if (unconstrained && (!beats_path.empty() || loop || dancers != 1 || speed != 1))
+      throw InvalidInput("--beats, --loop, --dancers and --speed go with textons in turn, not --unconstrained");
+    if (dancers < 1 || dancers > 100) throw InvalidInput("--dancers: 1 to 100");
+    if (!(speed >= kSlowestPlay && speed <= kFastestPlay)) throw InvalidInput("--speed: 0.25 to 4");
+    if (loop && (!path_text.empty() || !beats_path.empty()))
+      throw InvalidInput("--loop finds its own way: it goes without --path and --beats");
+    if (!loop && !loop_step.empty()) throw InvalidInput("--loop-step goes with --loop");
+    parse_loop_step(1);
     if (!unconstrained && !texton_text.empty())
       throw InvalidInput("--texton goes with --unconstrained; for a path use --path");
   }
@@ -135,30 +153,110 @@ struct Synthesize {
     return object;
   }
 
+  std::vector<Dance> dance(const MotionTexture& model, Index num_frames, const std::vector<int>& textons, int texton,
+                           Session& session) const {
+    if (unconstrained) {
+      Dance dance;
+      dance.clip = synthesize_unconstrained(model, texton, num_frames, options, dance.report);
+      dance.seed = options.seed;
+      return {dance};
+    }
+    DanceRequest request{num_frames, textons, speed, loop, parse_loop_step(model.features.cm_per_unit)};
+    if (dancers == 1) return {make_dance(model, request, options, session.job(0, 0.9))};
+    return make_dances(model, request, options, dancers, session.job(0, 0.9));
+  }
+
+  /// "x,z,heading" in the skeleton's unit and degrees.
+  RootStep parse_loop_step(double cm_per_unit) const {
+    RootStep step = RootStep::Zero();
+    if (loop_step.empty()) return step;
+    const std::vector<std::string> words = split_at_commas(loop_step);
+    if (words.size() != 3) throw InvalidInput("--loop-step: '" + loop_step + "' is not X,Z,HEADING");
+    for (std::size_t i = 0; i < 3; ++i) parse_value("--loop-step", words[i], step[static_cast<Index>(i)]);
+    if (!step.allFinite()) throw InvalidInput("--loop-step: '" + loop_step + "' is not finite");
+    return {step[0] * cm_per_unit, step[1] * cm_per_unit, step[2] * std::numbers::pi / 180};
+  }
+
+  /// Motion of several dancers: a file each; what shows it: one for all.
+  static bool holds_all(const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".glb" || extension == ".html" || extension == ".png" || extension == ".svg";
+  }
+  std::vector<std::string> paths_of_dancer(int k) const {
+    std::vector<std::string> paths;
+    for (const std::string& path : outputs) {
+      const std::filesystem::path whole(path);
+      if (!holds_all(path))
+        paths.push_back(
+            (whole.parent_path() / (whole.stem().string() + "-" + std::to_string(k + 1) + whole.extension().string()))
+                .string());
+    }
+    return paths;
+  }
+  std::vector<std::string> written_paths() const {
+    if (dancers == 1) return outputs;
+    std::vector<std::string> paths;
+    for (int k = 0; k < dancers; ++k)
+      for (std::string& path : paths_of_dancer(k)) paths.push_back(std::move(path));
+    for (const std::string& path : outputs)
+      if (holds_all(path)) paths.push_back(path);
+    return paths;
+  }
+
+  void write(const MotionTexture& model, const std::vector<Dance>& dances, Session& session) const {
+    if (dances.size() == 1) {
+      ClipPicture picture;
+      picture.spans = played_spans(model, dances[0].report, dances[0].clip.num_frames());
+      return write_clip_outputs(outputs, dances[0].clip, picture, adapt, session);
+    }
+    std::vector<Clip> clips;
+    std::vector<std::string> shared;
+    for (std::size_t k = 0; k < dances.size(); ++k) {
+      clips.push_back(dances[k].clip);
+      write_clip_outputs(paths_of_dancer(static_cast<int>(k)), dances[k].clip, {}, adapt, session);
+    }
+    for (const std::string& path : outputs)
+      if (holds_all(path)) shared.push_back(path);
+    if (shared.empty()) return;
+    write_clip_outputs(shared, side_by_side(clips, kApartCm / model.features.cm_per_unit), {}, adapt, session);
+  }
+
   void report_dry_run(Index num_frames, Session& session) const {
     Value object;
     object["dry_run"] = true;
     object["frames"] = std::int64_t{num_frames};
-    object["output"] = outputs;
+    object["output"] = written_paths();
     std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
+    for (const std::string& path : written_paths()) text += "would write " + path + "\n";
     session.result(object, text);
   }
 
-  Value report_value(const MotionTexture& model, const Clip& clip, const SynthesizeReport& report,
-                     const Session& session) const {
-    std::vector<int> textons;
-    for (const PlayedTexton& played : report.played) textons.push_back(played.texton);
-    Value object;
-    object["frames"] = std::int64_t{clip.num_frames()};
-    object["frame_rate"] = clip.frame_rate();
-    object["seed"] = options.seed;
-    object["output"] = outputs;
-    object["path"] = textons;
-    object["instances"] = played_value(model, report);
-    object["longest_copy"] = std::int64_t{report.longest_copy};
+  Value report_value(const MotionTexture& model, const std::vector<Dance>& dances, const Session& session) const {
+    Value object = dance_value(model, dances[0]);
+    object["output"] = written_paths();
     object["options"] = options_value(options);
+    object["speed"] = speed;
+    if (dancers > 1) {
+      Value list = Value::List();
+      for (const Dance& dance : dances) list.append(dance_value(model, dance));
+      object["dancers"] = std::move(list);
+    }
     object["secs"] = session.secs();
+    return object;
+  }
+
+  Value dance_value(const MotionTexture& model, const Dance& dance) const {
+    std::vector<int> textons;
+    for (const PlayedTexton& played : dance.report.played) textons.push_back(played.texton);
+    Value object;
+    object["frames"] = std::int64_t{dance.clip.num_frames()};
+    object["frame_rate"] = dance.clip.frame_rate();
+    object["seed"] = dance.seed;
+    object["path"] = textons;
+    object["instances"] = played_value(model, dance.report);
+    object["longest_copy"] = std::int64_t{dance.report.longest_copy};
+    if (!options.beats.empty()) object["beats"] = beats_value(dance.beats);
+    if (loop) object["seam_ratio"] = dance.seam_ratio;
     return object;
   }
 };
@@ -173,7 +271,10 @@ Command motion_synthesize() {
        "motex motion synthesize dance.motex -o new.bvh --secs 60\n"
        "motex motion synthesize dance.motex -o new.glb -o new.html --frames 3600 --seed 7\n"
        "motex motion synthesize dance.motex -o path.bvh --path 3,17,17,5\n"
-       "motex motion synthesize dance.motex -o noise.bvh --unconstrained --texton 3 --frames 300"});
+       "motex motion synthesize dance.motex -o noise.bvh --unconstrained --texton 3 --frames 300\n"
+       "motex motion synthesize dance.motex -o music.bvh --secs 60 --beats song.wav\n"
+       "motex motion synthesize dance.motex -o idle.glb --loop --frames 300\n"
+       "motex motion synthesize dance.motex -o crowd.bvh -o crowd.html --dancers 5 --secs 30"});
 }
 
 }  // namespace motex::cli
