@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -176,9 +177,14 @@ struct Play {
     /// Nobody is left who could say stop.
     bool is_deserted() const { return play.with_steering && play.frames == 0 && input.at_end() && waiting.empty(); }
 
+    /// False when nobody reads any more.
     bool print(const std::string& line) const {
-      return std::fwrite(line.data(), 1, line.size(), stdout) == line.size() &&
-             (play.unpaced_ || std::fflush(stdout) == 0);
+      const bool written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size() &&
+                           (play.unpaced_ || std::fflush(stdout) == 0);
+      if (written) return true;
+      if (errno != EPIPE) throw WriteError("standard output does not take the frames; is the disk full?");
+      if (std::freopen("/dev/null", "w", stdout) == nullptr) throw WriteError("standard output is closed");
+      return false;
     }
 
     void wait_until(Clock::time_point start, double at_secs) {

@@ -30,6 +30,7 @@ async function assertValid(file) {
   const { numErrors, numWarnings, messages } = report.issues;
   assert.equal(numErrors + numWarnings, 0, JSON.stringify(messages.slice(0, 5), null, 1));
   assert.ok(report.info.animationCount >= 1, 'no animation');
+  return report;
 }
 
 for (const clip of [quickstart[0], path.join(mocap, 'synthetic', 'ok_reference.bvh')]) {
@@ -46,4 +47,27 @@ test('synthesized', async () => {
   run('learn', ...quickstart, '-o', model);
   run('synthesize', model, '-o', out, '--secs', '10');
   await assertValid(out);
+});
+
+test('a skin goes through every door', async () => {
+  const tube = path.join(mocap, 'synthetic', 'skinned_tube.glb');
+  const out = (name) => path.join(folder, name);
+  run('convert', tube, '-o', out('tube.glb'));
+  run('convert', tube, '-o', out('plain.bvh'));
+  run('convert', out('tube.glb'), '-o', out('again.glb'), '--skin', tube);
+  run('retarget', tube, '--to', tube, '-o', out('retargeted.glb'));
+  for (const name of ['tube.glb', 'again.glb', 'retargeted.glb']) {
+    const report = await assertValid(out(name));
+    assert.equal(report.info.materialCount, 1, name);
+    assert.equal(report.info.totalVertexCount, 54, name);
+  }
+});
+
+test('an engine pack', async () => {
+  const model = path.join(folder, 'pack.motex');
+  run('learn', ...quickstart, '-o', model);
+  run('export', model, '-o', path.join(folder, 'pack'));
+  const graph = JSON.parse(readFileSync(path.join(folder, 'pack', 'graph.json'), 'utf8'));
+  const report = await assertValid(path.join(folder, 'pack', 'textons.glb'));
+  assert.equal(report.info.animationCount, graph.clips.length);
 });
