@@ -10,6 +10,7 @@
 #include "motex/core/archive.h"
 #include "motex/core/error.h"
 #include "motex/motion_texture/learn.h"
+#include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/synthesize.h"
 #include "motex/project/model_file.h"
 
@@ -32,6 +33,7 @@ void try_model(const std::string& bytes) {
   }
   if (bytes.size() > 100'000) return;
   try {
+    model = apply_edits(std::move(model));
     SynthesizeReport report;
     const Clip clip = synthesize_motion(model, 50, {}, {}, report);
     segment_clip(model, clip);

@@ -14,6 +14,7 @@
 #include "motex/core/files.h"
 #include "motex/core/rng.h"
 #include "motex/motion_texture/learn.h"
+#include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/synthesize.h"
 #include "motex/motion_texture/synthetic.h"
 
@@ -251,6 +252,57 @@ TEST(ModelFile, ForeignAndNewerFiles) {
   EXPECT_THROW(read_model_bytes("HIERARCHY\nROOT Hips\n", "dance.bvh"), UnsupportedFile);
   bytes[8] = 3;
   EXPECT_THROW(read_model_bytes(sealed(bytes), "newer"), UnsupportedFile);
+}
+
+TEST(ModelFile, EditsStandBesideTheLearnedModel) {
+  MotionTexture model = small_model();
+  const std::string learned = write_model_bytes(model);
+  const std::vector<ModelEdit> edits{{ModelEdit::Kind::kName, {1}, 1, "long step"},
+                                     {ModelEdit::Kind::kMerge, {1, 0}},
+                                     {ModelEdit::Kind::kWeight, {-1, 1}, 0.1}};
+  std::vector<std::string> stages{learned};
+  for (const ModelEdit& edit : edits) {
+    add_edit(model, edit);
+    stages.push_back(write_model_bytes(model));
+    model = read_model_bytes(stages.back(), "edited");
+    EXPECT_EQ(write_model_bytes(model), stages.back());
+  }
+  EXPECT_EQ(model.edits, edits);
+  EXPECT_EQ(model.textons[1].name, "") << "not applied";
+  EXPECT_EQ(stages.back()[8], 2) << "old programs must not dance it without its edits";
+  const MotionTexture applied = apply_edits(model);
+  EXPECT_EQ(applied.textons[1].name, "long step");
+  EXPECT_THROW(write_model_bytes(applied), InvalidInput);
+  for (std::size_t k = edits.size(); k-- > 0;) {
+    EXPECT_EQ(undo_edit(model), edits[k]);
+    EXPECT_TRUE(write_model_bytes(model) == stages[k]) << "undone to the byte";
+  }
+}
+
+TEST(ModelFile, LoadingAppliesEdits) {
+  MotionTexture model = small_model();
+  add_edit(model, {ModelEdit::Kind::kName, {0}, 1, "start"});
+  const auto path = std::filesystem::path(testing::TempDir()) / "edited.motex";
+  save_model(path, model);
+  EXPECT_TRUE(load_learned_model(path).textons[0].name.empty());
+  EXPECT_EQ(load_model(path).textons[0].name, "start");
+  model.edits[0].textons[0] = 100'000;
+  save_model(path, model);
+  EXPECT_NO_THROW(load_learned_model(path));
+  EXPECT_THROW(load_model(path), InvalidInput);
+  std::filesystem::remove(path);
+}
+
+TEST(ModelFile, BrokenEditsAreRefused) {
+  MotionTexture model = small_model();
+  model.edits = {{ModelEdit::Kind::kDrop, {0, 1}}};
+  const std::string bytes = write_model_bytes(model);
+  ASSERT_NE(bytes.find("drop 0 1\n"), std::string::npos);
+  for (const char* line : {"dorp 0 1\n", "drop 0 x\n", "name 0,1\n", "\n\n\n\n\n\n\n\n\n", "weight 1\n"}) {
+    std::string altered = bytes;
+    altered.replace(bytes.find("drop 0 1\n"), 9, std::string(line).append(9, ' ').substr(0, 9));
+    EXPECT_THROW(read_model_bytes(sealed(altered), "hostile"), InvalidInput) << line;
+  }
 }
 
 /// A file of every format version is kept (tests/old_files); what it held when it was new is what it holds for ever.
