@@ -24,6 +24,8 @@ Command motion_view();
 Command motion_convert();
 Command motion_retarget();
 Command motion_play();
+Command motion_export();
+Command motion_mix();
 Command motion_texton_list();
 Command motion_texton_name();
 Command motion_texton_drop();
