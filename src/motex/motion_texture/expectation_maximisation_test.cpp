@@ -58,6 +58,27 @@ TEST(ExpectationMaximisation, TheObjectiveNeverFalls) {
     }
 }
 
+TEST(ExpectationMaximisation, TheObjectiveNeverFallsWithPaths) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    PlantedCorpusOptions planting;
+    planting.seed = seed;
+    const PlantedCorpus truth = planted_corpus(planting);
+    const LearnOptions options = learn_options({Basis::kShared, Init::kMerge});
+    const TextonFitter fitter(truth.corpus, options);
+    const MovePaths paths(fitter.shared_states(), truth.corpus.runs, 40, 3);
+    ExpectationMaximisation em(truth.corpus, fitter, options, 40, 150, merged_moves(truth.corpus, paths, 4, 40, {}),
+                               &paths);
+    double before = -HUGE_VAL;
+    int iterations = 0;
+    for (; iterations < 30 && !em.converged(); ++iterations) {
+      const double now = em.iterate({});
+      EXPECT_GE(now, before - 1e-6 * std::abs(before)) << "iteration " << iterations;
+      before = now;
+    }
+    EXPECT_GE(iterations, 2);
+  }
+}
+
 TEST(ExpectationMaximisation, FindsThePlantedSegments) {
   for (const Basis basis : {Basis::kShared, Basis::kOwn})
     for (const std::uint64_t seed : {3, 4, 5}) {

@@ -19,10 +19,14 @@ Segmentation greedy_segments(const Corpus& corpus, const TextonFitter& fitter, d
 Segmentation merged_segments(const Corpus& corpus, const TextonFitter& fitter, double threshold, Index min_frames,
                              const JobContext& job);
 
-/// Pieces of min_frames, merged by the log Bayes factor of their dynamics and of their paths together, best first:
-/// while it gains, and on until there are pieces_per_texton pieces a texton. Each piece is compared with those whose
-/// paths are most alike.
-Segmentation merged_moves(const Corpus& corpus, const TextonFitter& fitter, const MovePaths& paths,
-                          double pieces_per_texton, Index min_frames, const JobContext& job);
+/// Pieces of min_frames, the two most alike merged again and again by the log Bayes factor of their paths: while it
+/// gains, and on until there are pieces_per_texton pieces a texton.
+Segmentation merged_moves(const Corpus& corpus, const MovePaths& paths, double pieces_per_texton, Index min_frames,
+                          const JobContext& job);
+
+/// Pieces of min_frames; the last of a run takes what is left. All labelled 0.
+Segmentation chop(const Corpus& corpus, Index min_frames);
+/// Labels each piece with its group, numbered in order of first appearance.
+void name_in_order(const std::vector<int>& groups, Segmentation& pieces);
 
 }  // namespace motex

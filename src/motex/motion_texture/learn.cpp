@@ -18,7 +18,7 @@ namespace motex {
 namespace {
 
 constexpr double kGreedyShare = 0.45;  // of the distance of two random poses
-constexpr double kPiecesPerTexton = 4.8;
+constexpr double kPiecesPerTexton = 5.1;
 constexpr double kSmallGain = 1e-5;  // nats per frame: EM has settled
 
 struct Durations {
@@ -44,7 +44,7 @@ Segmentation first_segments(const Corpus& corpus, const TextonFitter& fitter, co
                             const JobContext& job) {
   if (!starts_greedy(options) && paths != nullptr) {
     report.threshold = options.threshold > 0 ? options.threshold : kPiecesPerTexton;
-    return merged_moves(corpus, fitter, *paths, report.threshold, limits.min_frames, job);
+    return merged_moves(corpus, *paths, report.threshold, limits.min_frames, job);
   }
   if (!starts_greedy(options)) {
     report.threshold = options.threshold;

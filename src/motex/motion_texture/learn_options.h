@@ -16,7 +16,7 @@ struct LearnOptions {
   Basis basis = Basis::kShared;
   Init init = Init::kAuto;
   double threshold = 0;
-  double path_weight = 5;
+  double path_weight = 9;
   double min_duration = 1.0;
   double max_duration = 25.0 / 6;
   int state_size = 0;
@@ -37,7 +37,7 @@ struct LearnOptions {
           self.init, Choices{{"auto", "greedy", "merge"}});
     visit(Field{"threshold", "",
                 "greedy: largest mean error of a texton's open-loop prediction, cm (auto: 0.45 of "
-                "the distance of two random poses); merge: pieces a texton stands for on average (auto: 4.8), or "
+                "the distance of two random poses); merge: pieces a texton stands for on average (auto: 5.1), or "
                 "without paths the log Bayes factor that a merge must gain, nats (auto: 0)"},
           self.threshold, Range{1e-6, 1e6, true});
     visit(Field{"path_weight", "",

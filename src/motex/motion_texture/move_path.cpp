@@ -12,6 +12,7 @@ namespace motex {
 namespace {
 
 constexpr Index kBlockFrames = 1024;
+constexpr int kTabled = 256;
 
 struct Moments {
   Vector mean, variance;
@@ -52,6 +53,8 @@ MovePaths::MovePaths(const FrameMatrix& states, const std::vector<Run>& runs, In
   mean_ = moments.mean(channels_);
   scale_ = Vector::Constant(mean_.size(), 1 / std::sqrt(level));
   ratio_ = (moments.variance(channels_) / level).replicate(kPoints, 1);
+  inverse_ratio_ = ratio_.cwiseInverse();
+  for (int n = 0; n < kTabled; ++n) log_terms_.push_back(log_of(n));
   own_ = windows(states, runs);
 }
 
@@ -75,15 +78,18 @@ PathStatistics MovePaths::observe(Index row) const {
   return {1, own_.values.row(row).transpose().cast<double>()};
 }
 
-double MovePaths::evidence(double count, const Vector& sum) const {
-  const auto precision = count + ratio_.array().inverse();
-  return 0.5 * weight_ * (sum.array().square() / precision - (precision * ratio_.array()).log()).sum();
+double MovePaths::evidence(const PathStatistics& group) const {
+  const auto n = static_cast<std::size_t>(group.count);
+  const double log_term = n < log_terms_.size() ? log_terms_[n] : log_of(group.count);
+  const auto precision = group.count + inverse_ratio_.array();
+  return 0.5 * weight_ * ((group.sum.array().square() / precision).sum() - log_term);
 }
 
-double MovePaths::evidence(const PathStatistics& group) const { return evidence(group.count, group.sum); }
-
 double MovePaths::evidence(const PathStatistics& a, const PathStatistics& b) const {
-  return evidence(a.count + b.count, a.sum + b.sum);
+  const auto n = static_cast<std::size_t>(a.count + b.count);
+  const double log_term = n < log_terms_.size() ? log_terms_[n] : log_of(a.count + b.count);
+  const auto precision = (a.count + b.count) + inverse_ratio_.array();
+  return 0.5 * weight_ * (((a.sum + b.sum).array().square() / precision).sum() - log_term);
 }
 
 Vector MovePaths::path(const PathStatistics& group) const {

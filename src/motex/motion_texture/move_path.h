@@ -58,17 +58,18 @@ class MovePaths {
                                const JobContext& job) const;
 
   static constexpr Index kPoints = 4;
-  static constexpr double kShare = 0.15;
+  static constexpr double kShare = 0.14;
 
  private:
-  double evidence(double count, const Vector& sum) const;
+  double log_of(double count) const { return (1 + count * ratio_.array()).log().sum(); }
 
   double weight_;
-  Index stride_, first_;         ///< frames
-  std::vector<Index> channels_;  ///< of the states
-  Vector mean_, scale_;          ///< of those channels; 1 / deviation within a texton
-  Vector ratio_;                 ///< P: diagonal of R
+  Index stride_, first_;          ///< frames
+  std::vector<Index> channels_;   ///< of the states
+  Vector mean_, scale_;           ///< of those channels; 1 / deviation within a texton
+  Vector ratio_, inverse_ratio_;  ///< P: diagonal of R
   PathWindows own_;
+  std::vector<double> log_terms_;  ///< Σ log(1 + n R) by count n, which merging asks for again and again
 };
 
 }  // namespace motex
