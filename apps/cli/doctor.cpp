@@ -12,6 +12,7 @@
 #include "motex/core/gemm.h"
 #include "motex/core/parallel.h"
 #include "motex/motion_io/clip_io.h"
+#include "motex/motion_io/markers_io.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -54,6 +55,7 @@ struct Doctor {
     object["cores"] = num_threads(0);
     object["zlib"] = zlib_release();
     object["reads"] = readable_clip_extensions();
+    object["reads_markers"] = readable_marker_extensions();
     object["writes"] = clip_output_extensions();
     object["browser"] = browser.empty() ? Value() : Value(browser);
     session.result(object,
@@ -64,6 +66,7 @@ struct Doctor {
                                {"zlib", zlib_release()},
                                {"cores", std::to_string(num_threads(0))},
                                {"reads", enumerate(readable_clip_extensions())},
+                               {"markers", enumerate(readable_marker_extensions())},
                                {"writes", enumerate(clip_output_extensions())},
                                {"browser", browser.empty() ? "none found: pages open in any other" : browser}}));
   }
