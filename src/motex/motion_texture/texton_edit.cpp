@@ -47,8 +47,7 @@ class Editor {
   void want_rotation(const PoseEdit& edit);
   void want_pose(const PoseEdit& edit);
   void want_vector(std::size_t joint, const Quat& relative, Index frame);
-  std::vector<Stretch> all_runs() const;
-  Lds dynamics(const Part& part, const LdsPrior& body) const;
+  Lds dynamics(const Part& part) const;
   bool moves_feet(Index first) const;
   Vector change_of(const Part& part, Index frame) const {
     return part.wanted.at(frame) - features_.row(frame).segment(part.first, part.count).transpose();
@@ -155,21 +154,28 @@ LdsStatistics pooled(const MotionTexture& model, Index first, Index count, std::
   return sum;
 }
 
-std::vector<Stretch> Editor::all_runs() const {
-  std::vector<Stretch> all;
-  for (const Run& run : model_.runs) all.push_back({run.row, run.length});
-  return all;
+/// The same of all that moves, from the states of the corpus.
+LdsStatistics pooled_body(const MotionTexture& model) {
+  const CentredMoments moments = centred(model.global_statistics);
+  const Index d = moments.mean.size() / 3;
+  LdsStatistics sum(1);
+  for (Index a = 0; a < 3; ++a)
+    for (Index b = 0; b < 3; ++b) sum.moments(a, b) = moments.scatter.block(a * d, b * d, d, d).trace();
+  sum.moments(3, 3) = moments.count * static_cast<double>(d);
+  return sum;
 }
 
 /// Dynamics of one channel of the part, all its channels taken together, so that a change goes straight to where it is
 /// asked for. Prior: these channels in the whole corpus, and half a centimetre of what the whole body does, for parts
 /// that hardly move.
-Lds Editor::dynamics(const Part& part, const LdsPrior& body) const {
-  std::vector<Stretch> own;
+Lds Editor::dynamics(const Part& part) const {
+  std::vector<Stretch> all, own;
+  for (const Run& run : model_.runs) all.push_back({run.row, run.length});
   for (const int i : model_.textons[static_cast<std::size_t>(instance_.texton)].instances)
     own.push_back(
         {model_.instances[static_cast<std::size_t>(i)].row, model_.instances[static_cast<std::size_t>(i)].length});
-  LdsPrior prior = make_prior(pooled(model_, part.first, part.count, all_runs()), kPriorFrames);
+  const LdsPrior body = make_prior(pooled_body(model_), kPriorFrames);
+  LdsPrior prior = make_prior(pooled(model_, part.first, part.count, all), kPriorFrames);
   prior.covariance += kLeastMovement * kLeastMovement / body.covariance(0, 0) * body.covariance;
   Lds lds = fit_lds(pooled(model_, part.first, part.count, own), prior);
   lds.offset.setZero();
@@ -178,7 +184,6 @@ Lds Editor::dynamics(const Part& part, const LdsPrior& body) const {
 
 FrameMatrix Editor::solve(EditReport& report) const {
   FrameMatrix out = features_;
-  LdsPrior body;
   const Index l = out.rows();
   for (const auto& [first, part] : parts_) {
     EditedPart edited{part.name, {}, 0, 0};
@@ -192,9 +197,7 @@ FrameMatrix Editor::solve(EditReport& report) const {
       edited.size = std::max(edited.size, change.row(frame).norm());
     }
     if (edited.size > kNothing) {
-      if (body.frames == 0)
-        body = make_prior(pooled(model_, kHeight, features_.cols() - kHeight, all_runs()), kPriorFrames);
-      const Lds lds = dynamics(part, body);
+      const Lds lds = dynamics(part);
       double energy = 0;
       for (Index c = 0; c < part.count; ++c) {
         FrameMatrix channel = change.col(c);

@@ -29,10 +29,10 @@ using Way = RevisitPlanner::Way;
 /// Mean distance that joints and end sites move from each frame to the next.
 Vector joint_steps(const Clip& clip) {
   const FrameMatrix p = world_positions(clip);
+  const double points = static_cast<double>(p.cols()) / 3;
   Vector steps = Vector::Zero(std::max<Index>(0, p.rows() - 1));
   for (Index t = 0; t + 1 < p.rows(); ++t)
-    for (Index j = 0; j < p.cols(); j += 3)
-      steps[t] += (p.block<1, 3>(t + 1, j) - p.block<1, 3>(t, j)).norm() / static_cast<double>(p.cols() / 3);
+    for (Index j = 0; j < p.cols(); j += 3) steps[t] += (p.block<1, 3>(t + 1, j) - p.block<1, 3>(t, j)).norm() / points;
   return steps;
 }
 
