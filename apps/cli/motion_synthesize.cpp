@@ -66,8 +66,7 @@ struct Synthesize {
                     "(default: in place)",
                     loop_step);
     arguments.value("--dancers", "K",
-                    "several, with this seed and the following: OUT-1.bvh …, and one page, picture or .glb of all",
-                    dancers);
+                    "several, with this seed and the following: OUT-1.bvh …, and one page or .glb of all", dancers);
     arguments.value("--speed", "X", "times as fast as the examples, 0.25 to 4 (default 1)", speed);
     arguments.toggle("--unconstrained", "one texton by its dynamics and noise alone, without end poses (with --texton)",
                      unconstrained);
@@ -177,10 +176,10 @@ struct Synthesize {
     return {step[0] * cm_per_unit, step[1] * cm_per_unit, step[2] * std::numbers::pi / 180};
   }
 
-  /// Motion of several dancers: a file each; what shows it: one for all.
+  /// Of several dancers: one file for all; of other formats one each.
   static bool holds_all(const std::string& path) {
     const std::string extension = extension_of(path);
-    return extension == ".glb" || extension == ".html" || extension == ".png" || extension == ".svg";
+    return extension == ".glb" || extension == ".html";
   }
   std::vector<std::string> paths_of_dancer(int k) const {
     std::vector<std::string> paths;

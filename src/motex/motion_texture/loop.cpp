@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "motex/core/options_check.h"
@@ -12,14 +13,17 @@
 #include "motex/motion/foot_fix.h"
 #include "motex/motion/retime.h"
 #include "motex/motion_texture/choreography_plan.h"
+#include "motex/motion_texture/instance_walk.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/placing.h"
 
 namespace motex {
 namespace {
 
-constexpr int kCandidates = 12;
-constexpr double kSettleSecs = 4;  // after which held feet have forgotten how the motion began
+constexpr int kCandidates = 24;
+constexpr double kFarCm = 40, kFarTurn = 0.5;  // a way that must be bent by this costs 1
+constexpr double kLiveliness = 8;              // cost of e times more or less movement than usual
+constexpr double kSettleSecs = 4;              // after which held feet have forgotten how the motion began
 
 /// First rows of instances from which a loop may begin: drawn without repetition.
 std::vector<Index> draw_starts(const MotionTexture& model, std::uint64_t seed) {
@@ -41,10 +45,50 @@ ClipFrame clip_frame(const MotionTexture& model, Index row) {
   throw InvalidInput("there is no row " + std::to_string(row) + " in the model");
 }
 
-/// The drawn start from which a way back of num_frames costs least.
-Index cheapest_start(const MotionTexture& model, Index num_frames, const ChoreographyOptions& options,
-                     const JobContext& job) {
+/// Where the examples of a plan lead, each at its own length.
+RootStep natural_step(const MotionTexture& model, const Plan& plan) {
+  RootPlace place;
+  const Vector& w = model.features.weights;
+  for (const PlannedSegment& s : plan.segments)
+    for (Index r = s.piece.source_row + 1; r < s.piece.source_row + s.piece.source_length - 1; ++r) {
+      const double vx = static_cast<double>(model.corpus(r, 0)) / w[0],
+                   vz = static_cast<double>(model.corpus(r, 1)) / w[1];
+      place.x += std::cos(place.heading) * vx + std::sin(place.heading) * vz;
+      place.z += -std::sin(place.heading) * vx + std::cos(place.heading) * vz;
+      place.heading += static_cast<double>(model.corpus(r, 3)) / w[3];
+    }
+  return root_step(model.features, {}, place);
+}
+
+double usual_speed(const MotionTexture& model) {
+  double sum = 0, frames = 0;
+  for (const Instance& instance : model.instances) {
+    sum += mean_speed(model, instance) * static_cast<double>(instance.length);
+    frames += static_cast<double>(instance.length);
+  }
+  return sum / frames;
+}
+
+/// Of a plan: how far its way must be bent, and how much less or more than usual it moves.
+double loop_cost(const MotionTexture& model, const Plan& plan, const RootStep& step, double usual) {
+  const RootStep leads = natural_step(model, plan);
+  const double way = std::hypot(leads[0] - step[0], leads[1] - step[1]) / kFarCm;
+  const double turn = std::remainder(leads[2] - step[2], 2 * std::numbers::pi) / kFarTurn;
+  double movement = 0, frames = 0;
+  for (const PlannedSegment& s : plan.segments) {
+    const auto length = static_cast<double>(s.piece.length);
+    movement += mean_speed(model, model.instances[static_cast<std::size_t>(s.instance)]) * length;
+    frames += length;
+  }
+  const double lively = frames > 0 ? std::log(std::max(1e-6, movement / frames) / usual) : 0;
+  return plan.cost + way * way + turn * turn + kLiveliness * lively * lively;
+}
+
+/// The drawn start from which a loop costs least.
+Index cheapest_start(const MotionTexture& model, Index num_frames, const RootStep& step,
+                     const ChoreographyOptions& options, const JobContext& job) {
   const ChoreographyPlanner planner(model);
+  const double usual = usual_speed(model);
   double least = std::numeric_limits<double>::infinity();
   Index best = -1;
   std::string refusal;
@@ -56,7 +100,7 @@ Index cheapest_start(const MotionTexture& model, Index num_frames, const Choreog
     request.stretch = options.stretch;
     request.nearness = options.nearness;
     try {
-      const double cost = planner.plan(request, job).cost;
+      const double cost = loop_cost(model, planner.plan(request, job), step, usual);
       if (cost < least) least = cost, best = rows[k];
     } catch (const InvalidInput& error) {
       if (refusal.empty()) refusal = error.what();
@@ -139,7 +183,7 @@ Clip synthesize_loop(const MotionTexture& model, Index num_frames, const RootSte
   check_options(options);
   if (num_frames < 2 || num_frames > 100'000) throw InvalidInput("a loop has 2 to 100000 frames");
   if (!step.allFinite()) throw InvalidInput("the step of a loop must be finite");
-  const Index row = cheapest_start(model, num_frames, options, job);
+  const Index row = cheapest_start(model, num_frames, step, options, job);
   ChoreographyRequest request;
   report = {};
   report.start = request.start = clip_frame(model, row);

@@ -19,10 +19,11 @@ struct LoopReport {
 };
 
 /// num_frames frames of which the first follows the last: a choreography from a pose to itself [MT02 5.2]. With `step`
-/// (0, 0, 0) the loop stays in place; otherwise each round begins one step farther, seen from where it began. Of some
-/// key poses drawn with the seed, the one is taken from which a way back costs least; the way of the root is bent so
-/// that it ends exactly there (bend_root_path). Planted feet are held in a round between two others, so across the
-/// seam. Throws InvalidInput when no loop of that many frames is found, naming the nearest number.
+/// (0, 0, 0) the loop stays in place; otherwise each round begins one step farther, seen from where it began. Of 24
+/// key poses drawn with the seed, the one is taken from which a way back costs least, leads nearest to where it should,
+/// and is as lively as the examples; the way of the root is bent so that it ends exactly there (bend_root_path).
+/// Planted feet are held in a round between two others, so across the seam. Throws InvalidInput when no loop of that
+/// many frames is found, naming the nearest number.
 Clip synthesize_loop(const MotionTexture& model, Index num_frames, const RootStep& step,
                      const ChoreographyOptions& options, LoopReport& report, const JobContext& job = {});
 
