@@ -21,7 +21,7 @@ using motex::Clip;
 using motex::Index;
 using motex::Vector3;
 
-constexpr int kPlain = 200, kLed = 30;
+constexpr int kPlain = 200, kLed = 20;
 
 double secs_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -153,6 +153,31 @@ class BadTargets(CommandTest):
         self.assertEqual(result.returncode, 1, result.stderr)
 
 
+class BadChoreographies(CommandTest):
+    def test_places_boxes_and_limbs(self):
+        model, clip = self.model(), CLIPS[0].rsplit("/", 1)[1].removesuffix(".bvh")
+        poses = ("--start", f"{clip}@10", "--end", f"{clip}@900", "--frames", 300, "--place", "0,0,0")
+        for flag, value, saying in [
+            ("--at", "0,0", r"N:X,Z\[,HEADING\]"),
+            ("--at", "299:0", r"N:X,Z\[,HEADING\]"),
+            ("--at", "299:0,nan", "nan|finite"),
+            ("--at", "300:0,0", "frame 300"),
+            ("--at", "0:0,0", "frame 0"),
+            ("--avoid", "1,2,3", "X0,Z0,X1,Z1"),
+            ("--avoid", "-1,-1,1,1", "start lies inside the box -1,-1,1,1"),
+            ("--reach", "lHand:1,2,3", "JOINT@N:X,Y,Z"),
+            ("--reach", "lHand@20:1,2", "JOINT@N:X,Y,Z"),
+            ("--reach", "nose@20:1,2,3", "no joint 'nose'"),
+            ("--reach", "hip@20:1,2,3", "'hip' has no limb"),
+            ("--reach", "lHand@400:1,2,3", "400"),
+            ("--reach", "lHand@299:1,2,3", "pose of this frame is given"),
+            ("--body-radius", "-1", "body-radius"),
+        ]:
+            out = self.folder / "x.bvh"
+            self.fail_with(2, "motion", "choreograph", model, *poses, "-o", out, flag, value, saying=saying)
+            self.assertFalse(out.exists())
+
+
 class Interrupted(CommandTest):
     def setUp(self):
         super().setUp()

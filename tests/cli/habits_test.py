@@ -115,6 +115,10 @@ class Json(CommandTest):
             self.one_json_object("motion", "choreograph", model, *poses, "-o", out, "--seed", 2)
         self.assertEqual(outs[0].read_bytes(), outs[1].read_bytes())
         self.assertIn("Frames: 600", outs[0].read_text())
+        led = ("--place", "0,0,0", "--at", "599:60,90,45", "--avoid", "500,500,600,600", "--reach", "lHand@300:0,100,0")
+        value = self.one_json_object("motion", "choreograph", model, *poses, *led, "-o", self.folder / "led.bvh")
+        self.has(value, "root_path", "reached", "frames_below_floor")
+        self.has(value["root_path"], "clearance", "way_ratio")
 
     def test_stretch_vary_and_edit(self):
         model, out = self.model(), self.folder / "x.bvh"

@@ -24,7 +24,8 @@ constexpr double kStandingShare = 0.1;  // of the mean movement: what standing f
 constexpr double kLeastMoveCm = 1e-3;
 constexpr double kSpareCm = 1;        // beyond the body's radius, around boxes
 constexpr double kLongestDetour = 2;  // around boxes, against the way without them
-constexpr int kContinuation = 8, kMostNewton = 40, kMostPushes = 80;
+constexpr double kShortestWay = 0.5;  // of the old one: less is walking on the spot
+constexpr int kContinuation = 8, kPushSteps = 2, kMostNewton = 30, kMostPushes = 40;
 
 /// coefficients · (x, z, ψ), averaged over the frames frame − spread … frame + spread, shall be `value`.
 struct Row {
@@ -48,7 +49,7 @@ class Bender {
   const RootPath& path() const { return path_; }
   double cost() const;
   /// False when some row is not met.
-  bool meet(const std::vector<Row>& rows);
+  bool meet(const std::vector<Row>& rows, int continuation);
 
  private:
   Vector residuals(const std::vector<Row>& rows) const;
@@ -159,9 +160,9 @@ void Bender::step(const std::vector<Row>& rows, double share) {
   integrate();
 }
 
-bool Bender::meet(const std::vector<Row>& rows) {
+bool Bender::meet(const std::vector<Row>& rows, int continuation) {
   if (rows.empty()) return true;
-  for (int k = 0; k < kContinuation; ++k) step(rows, 1.0 / (kContinuation - k));
+  for (int k = 0; k < continuation; ++k) step(rows, 1.0 / (continuation - k));
   const double scale = 1 + path_.x.cwiseAbs().maxCoeff() + path_.z.cwiseAbs().maxCoeff();
   for (int k = 0; k < kMostNewton; ++k) {
     if (residuals(rows).cwiseAbs().maxCoeff() < 1e-11 * scale) break;
@@ -333,17 +334,18 @@ BendPathReport bend_root_path(RootPath& path, double frame_time_secs, double cm_
     for (const RootTarget& target : targets) bender.hold(target.frame);
     std::vector<Push> pushes;
     std::vector<Row> rows = wanted;
-    bool met = bender.meet(rows), inside = true;
+    bool met = bender.meet(rows, kContinuation), inside = true;
     if (!met && rank == 0) throw InvalidInput("the places asked for cannot be reached by this dance");
     direct = std::max(direct, way_length(bender.path()));
+    const double shortest = std::min(way_length(path), way_length(bender.path()));
     for (int k = 0; met && inside && k < kMostPushes; ++k) {
       inside = push_out(bender, around, kSpareCm / cm_per_unit, rank, pushes);
       if (!inside) break;
       rows = wanted;
       for (const Push& push : pushes) rows.insert(rows.end(), push.rows.begin(), push.rows.end());
-      met = bender.meet(rows);
+      met = bender.meet(rows, kPushSteps) && way_length(bender.path()) < kLongestDetour * direct;
     }
-    if (!met || inside || way_length(bender.path()) > kLongestDetour * direct) continue;
+    if (!met || inside || way_length(bender.path()) < kShortestWay * shortest) continue;
     BendPathReport report;
     report.cost = bender.cost();
     report.largest_turn = (bender.path().heading - path.heading).cwiseAbs().maxCoeff();

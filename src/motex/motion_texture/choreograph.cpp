@@ -15,8 +15,11 @@
 namespace motex {
 namespace {
 
-constexpr double kFar = 2;                     // usual jump distances
-constexpr double kDull = 0.05;                 // deviations of liveliness below the mean of the examples
+constexpr double kFar = 2;            // usual jump distances
+constexpr double kDull = 0.1;         // deviations of liveliness, against the mean of the examples
+constexpr double kLeastWorth = 0.25;  // of a second of liveliness, in transitions: the first that is tried
+constexpr int kLivelySteps = 6;
+constexpr double kSliding = 3;                 // bending the way of the root against transitions
 constexpr double kSlides = 1.5;                // a root that goes so much farther than its examples lets feet slide
 constexpr std::uint64_t kMostVariations = 16;  // ways that are tried where the root has somewhere to go
 
@@ -37,19 +40,17 @@ Plan plan_stretch(const ChoreographyPlanner& planner, const Station& from, const
                   const ChoreographyOptions& options, const JobContext& job) {
   try {
     Plan best = planner.plan(request, job);
-    double liveliness = planner.mean_liveliness(best);
     if (!options.lively || request.variation != 0) return best;
-    for (const double worth : {0.25, 0.5, 1.0, 1.5, 2.0, 3.0}) {
-      if (liveliness >= -kDull) break;
-      const double before = std::exchange(request.liveliness, worth);
-      Plan next = planner.plan(request, job);
-      const double now = planner.mean_liveliness(next);
-      if (now <= liveliness && next.cost > best.cost) {
-        request.liveliness = before;
-        continue;
-      }
-      best = std::move(next);
-      liveliness = now;
+    double liveliness = planner.mean_liveliness(best), low = 0, high = 0;
+    for (int k = 0; k < kLivelySteps && std::abs(liveliness) > kDull && (k > 0 || liveliness < 0); ++k) {
+      const double worth = high > 0 ? 0.5 * (low + high) : kLeastWorth * std::exp2(k);
+      PlanRequest other = request;
+      other.liveliness = worth;
+      Plan plan = planner.plan(other, job);
+      const double now = planner.mean_liveliness(plan);
+      (now < 0 ? low : high) = worth;
+      if (std::abs(now) >= std::abs(liveliness)) continue;
+      best = std::move(plan), liveliness = now, request.liveliness = worth;
     }
     return best;
   } catch (const InvalidInput& error) {
@@ -128,7 +129,7 @@ Take best_take(const MotionTexture& model, const ChoreographyRequest& request, c
     return play_take(model, planner, stations, requests, options, 0, job);
   Take best;
   std::string failure;
-  const auto cost = [](const Take& take) { return take.report.cost + take.report.path.cost; };
+  const auto cost = [](const Take& take) { return take.report.cost + kSliding * take.report.path.cost; };
   for (std::uint64_t variation = 0; variation < kMostVariations; ++variation) {
     Take take = play_take(model, planner, stations, requests, options, variation, job);
     job.progress("dancing", static_cast<double>(variation + 1) / static_cast<double>(kMostVariations));
@@ -156,7 +157,7 @@ void warn_when_far(const MotionTexture& model, const ChoreographyReport& report,
   };
   check("start", report.start_distance, report.start_from_model);
   check("end", report.end_distance, report.end_from_model);
-  if (report.path.way > kSlides)
+  if (report.path.way > kSlides || report.path.way < 1 / kSlides)
     job.warn("to be there in time the root goes " + std::to_string(report.path.way).substr(0, 4) +
              " times as far as in the examples; feet may slide");
 }

@@ -254,6 +254,108 @@ TEST(Choreograph, StandsWhereItIsPut) {
   EXPECT_NEAR(std::remainder(found.heading - source.heading, 2 * 3.14159265358979), 0, 1e-3);
 }
 
+TEST(Choreograph, IsThereAtThatFrameFacingThatWay) {
+  ChoreographyRequest wanted = request(480);
+  wanted.place = RootPlace{0, 0, 0};
+  wanted.at = {{220, 100, 250, {}}, {479, -50, 480, 0.9}};
+  ChoreographyReport report;
+  const Clip dance = choreograph(model(), wanted, {}, report);
+  for (const RootTarget& target : wanted.at) {
+    const RootPlace found = root_place(model().features, dance, target.frame);
+    EXPECT_NEAR(found.x, target.x, 1e-6);
+    EXPECT_NEAR(found.z, target.z, 1e-6);
+    if (target.heading) {
+      EXPECT_NEAR(std::remainder(found.heading - *target.heading, 2 * 3.14159265358979), 0, 1e-9);
+    }
+  }
+  EXPECT_GT(report.path.cost, 0);
+  EXPECT_LT(pose_error(dance, 0, "walk_0.bvh", 130), 1e-6);
+  EXPECT_LT(pose_error(dance, 479, "walk_2.bvh", 310), 1e-6);
+  wanted.at[0].frame = 480;
+  EXPECT_TRUE(contains(message_of(wanted), "frame 480")) << message_of(wanted);
+}
+
+TEST(Choreograph, GoesAroundBoxes) {
+  ChoreographyRequest wanted = request(480);
+  wanted.place = RootPlace{0, 0, 0};
+  ChoreographyReport report;
+  const Clip free = choreograph(model(), wanted, {}, report);
+  const RootPlace middle = root_place(model().features, free, 240);
+  wanted.avoid = {{middle.x - 15, middle.z - 15, middle.x + 15, middle.z + 15}};
+  const Clip dance = choreograph(model(), wanted, {}, report);
+  const auto clearance_of = [&](const Clip& clip) {
+    RootPath path{Vector(480), Vector(480), {}};
+    for (Index t = 0; t < 480; ++t) {
+      const RootPlace place = root_place(model().features, clip, t);
+      path.x[t] = place.x, path.z[t] = place.z;
+    }
+    Index frame = 0;
+    return clearance(path, wanted.avoid, frame);
+  };
+  ASSERT_LT(clearance_of(free), -10);
+  EXPECT_GE(clearance_of(dance), 30);
+  EXPECT_LT(pose_error(dance, 479, "walk_2.bvh", 310), 1e-6);
+  wanted.avoid = {{-10, -10, 10, 10}};
+  EXPECT_TRUE(contains(message_of(wanted), "the start lies inside the box -10,-10,10,10")) << message_of(wanted);
+  wanted.avoid = {{-1e4, 60, 1e4, 80}, {-1e4, -80, 1e4, -60}, {60, -1e4, 80, 1e4}, {-80, -1e4, -60, 1e4}};
+  EXPECT_TRUE(contains(message_of(wanted), "no way around the box")) << message_of(wanted);
+}
+
+TEST(Choreograph, HandsAreWhereTheyAreWanted) {
+  ChoreographyRequest wanted = request(300);
+  ChoreographyReport report;
+  const Clip free = choreograph(model(), wanted, {}, report);
+  const auto place = [](const Clip& clip, const std::string& joint, Index frame) {
+    Pose pose;
+    forward_kinematics(clip, frame, pose);
+    return Vector3(pose.positions.col(clip.skeleton.find(joint)));
+  };
+  wanted.reach = {{"LeftHand", 120, place(free, "LeftHand", 120) + Vector3(10, 15, 15)},
+                  {"RightFoot", 200, place(free, "RightFoot", 200) + Vector3(0, 15, 10)}};
+  const Clip dance = choreograph(model(), wanted, {}, report);
+  for (const LimbTarget& target : wanted.reach)
+    EXPECT_LT((place(dance, target.joint, target.frame) - target.position).norm(), 0.1) << target.joint;
+  EXPECT_EQ(dance.rotations.topRows(60), free.rotations.topRows(60));
+  EXPECT_LT(pose_error(dance, 299, "walk_2.bvh", 310), 1e-6);
+  wanted.reach[0].frame = 299;
+  EXPECT_TRUE(contains(message_of(wanted), "LeftHand at frame 299")) << message_of(wanted);
+}
+
+TEST(Choreograph, SaysHowFarPosesAreThatTheModelDoesNotHave) {
+  Clip bowed = walking_clips(5, 300)[4];
+  for (Index t = 0; t < 300; ++t) bowed.set_rotation(t, bowed.skeleton.find("Spine"), exp_map(Vector3(1.4, 0, 0)));
+  ChoreographyRequest wanted = request(240);
+  wanted.last_two = pose_pair(model().features, bowed, 100);
+  std::vector<std::string> warnings;
+  JobContext job;
+  job.on_warning = [&](const std::string& message) { warnings.push_back(message); };
+  ChoreographyReport report;
+  choreograph(model(), wanted, {}, report, job);
+  EXPECT_EQ(report.start_from_model, 0);
+  EXPECT_GT(report.end_from_model, 10);
+  EXPECT_GE(report.end_distance, report.end_from_model - 1e-9);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(contains(warnings[0], "the end poses are ") && contains(warnings[0], "of all poses in the model"))
+      << warnings[0];
+}
+
+TEST(Choreograph, IsAsLivelyAsTheExamples) {
+  const ChoreographyPlanner planner(model());
+  ChoreographyOptions dull;
+  dull.lively = false;
+  double likely = 0, lively = 0;
+  for (const Index n : {500, 600, 700}) {
+    const auto speed = [&](const ChoreographyOptions& options) {
+      ChoreographyReport report;
+      const FrameMatrix p = world_positions(choreograph(model(), request(n), options, report));
+      return (p.bottomRows(n - 1) - p.topRows(n - 1)).rowwise().norm().mean();
+    };
+    likely += speed(dull);
+    lively += speed({});
+  }
+  EXPECT_GE(lively, 0.999 * likely);
+}
+
 TEST(Choreograph, OneSeedIsOneDance) {
   ChoreographyOptions options;
   ChoreographyReport report;

@@ -57,10 +57,13 @@ struct ChoreographyPlanner::Search {
   void prepare_rest();
   void prepare_exit();
   Finish finish(Index frames) const;
-  double& begun(int node, Index frames) { return begun_[at(node) * width_ + static_cast<std::size_t>(frames)]; }
-  double begun(int node, Index frames) const { return begun_[at(node) * width_ + static_cast<std::size_t>(frames)]; }
-  double& done(int node, Index frames) { return done_[at(node) * width_ + static_cast<std::size_t>(frames)]; }
-  double done(int node, Index frames) const { return done_[at(node) * width_ + static_cast<std::size_t>(frames)]; }
+  std::size_t cell(int node, Index frames) const {
+    return static_cast<std::size_t>(frames) * sources_.size() + at(node);
+  }
+  double& begun(int node, Index frames) { return begun_[cell(node, frames)]; }
+  double begun(int node, Index frames) const { return begun_[cell(node, frames)]; }
+  double& done(int node, Index frames) { return done_[cell(node, frames)]; }
+  double done(int node, Index frames) const { return done_[cell(node, frames)]; }
   double best_length(int node, Index frames, Index& length) const;
   double best_predecessor(int node, Index frames, Edge& edge) const;
   double edge_cost(const Edge& edge, int to) const {
