@@ -30,7 +30,7 @@ void check_output_folder(const std::string& path, const Session& session) {
     throw InvalidInput(path + ": cannot be made: the folder that it would be in is not writable");
 }
 
-OutputFolder::OutputFolder(fs::path path) : path_(without_slash(path)) {
+OutputFolder::OutputFolder(const fs::path& path) : path_(without_slash(path)) {
   temporary_ = path_.string() + ".part" + std::to_string(::getpid());
   std::error_code ec;
   fs::create_directory(temporary_, ec);

@@ -17,7 +17,7 @@ void check_output_folder(const std::string& path, const Session& session);
 /// Destroyed without it, nothing is left.
 class OutputFolder {
  public:
-  explicit OutputFolder(std::filesystem::path path);
+  explicit OutputFolder(const std::filesystem::path& path);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
