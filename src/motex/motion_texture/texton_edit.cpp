@@ -9,6 +9,7 @@
 #include "motex/core/options_check.h"
 #include "motex/lds/pinned_path.h"
 #include "motex/motion/foot_fix.h"
+#include "motex/motion/keep_feet.h"
 #include "motex/motion_texture/segment_synthesis.h"
 #include "motex/motion_texture/texton_stretch.h"
 
@@ -38,9 +39,12 @@ class Editor {
       : model_(model), instance_(instance), features_(std::move(base)) {}
 
   void add(const PoseEdit& edit);
+  const FrameMatrix& unedited() const { return features_; }
   /// The edited features.
   FrameMatrix solve(EditReport& report) const;
   std::vector<Index> pinned_frames() const;
+  /// The body alone was moved on its legs, which stand where they stood.
+  bool moves_on_legs() const;
 
  private:
   void want(const std::string& name, Index first, const Vector& value, Index frame);
@@ -225,6 +229,15 @@ std::vector<Index> Editor::pinned_frames() const {
   return frames;
 }
 
+bool Editor::moves_on_legs() const {
+  bool moves_body = false;
+  for (const auto& [first, part] : parts_) {
+    moves_body = moves_body || first < kRootChannels;
+    if (first >= kRootChannels && moves_feet(first)) return false;
+  }
+  return moves_body;
+}
+
 bool Editor::moves_feet(Index first) const {
   if (first < kRootChannels) return true;
   const int joint = space().joints[static_cast<std::size_t>((first - kRootChannels) / 3)];
@@ -263,6 +276,8 @@ Clip edit_texton(const MotionTexture& model, int instance_idx, std::span<const P
   report = {};
   Clip clip = decode(model.features, editor.solve(report), instance.place);
   clip.name = "texton";
+  if (options.foot_fix && editor.moves_on_legs())
+    keep_feet(decode(model.features, editor.unedited(), instance.place), model.feet, clip);
   if (options.foot_fix && !model.feet.legs.empty()) fix_feet(clip, model.feet, {}, editor.pinned_frames());
   warn_when_strained(report, job);
   return clip;

@@ -66,7 +66,8 @@ struct EditReport {
 /// of an edit would be lost or move other joints [docs/papers/motion-texture.md].
 ///
 /// Edits that need more noise than chance ever makes (strain > 5) are met all the same, with a warning. The foot
-/// pass leaves frames alone where legs or what carries them were edited. Throws InvalidInput for a frame that does not
+/// pass leaves frames alone where legs or what carries them were edited; where height or tilt alone were, legs bend so
+/// that feet stay where they were. Throws InvalidInput for a frame that does not
 /// exist or is one of the two at each end, a joint that has no channels, numbers that are not finite, or two edits of
 /// one part and frame.
 Clip edit_texton(const MotionTexture& model, int instance, std::span<const PoseEdit> edits, const EditOptions& options,

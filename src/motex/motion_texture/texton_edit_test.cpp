@@ -135,6 +135,26 @@ TEST(Edit, SeveralAtOnce) {
   ASSERT_EQ(report.parts.size(), 4U);
 }
 
+TEST(Edit, ALoweredBodyStandsOnItsFeet) {
+  const MotionTexture& model = walking_model();
+  ASSERT_FALSE(model.feet.legs.empty());
+  EditReport report;
+  const Clip base = edited({}, report, true);
+  PoseEdit edit;
+  edit.kind = EditKind::kMoveHeight, edit.frame = base.num_frames() / 2, edit.height = -6 / model.features.cm_per_unit;
+  const Clip clip = edited({edit}, report, true), floating = edited({edit}, report, false);
+  const int root = model.features.travelling_joint;
+  EXPECT_NEAR(clip.translation(edit.frame, root).y(), floating.translation(edit.frame, root).y(), 1e-9);
+  Pose before, held, loose;
+  forward_kinematics(edited({}, report, false), edit.frame, before);
+  forward_kinematics(clip, edit.frame, held);
+  forward_kinematics(floating, edit.frame, loose);
+  for (const Leg& leg : model.feet.legs) {
+    EXPECT_GT((before.positions.col(leg.ankle_idx) - loose.positions.col(leg.ankle_idx)).norm(), 5);
+    EXPECT_LT((before.positions.col(leg.ankle_idx) - held.positions.col(leg.ankle_idx)).norm(), 1);
+  }
+}
+
 TEST(Edit, AWholePoseIsTaken) {
   const MotionTexture& model = walking_model();
   EditReport report;
