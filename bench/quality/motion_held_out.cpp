@@ -93,11 +93,13 @@ void print_curve(const Split& split) {
   };
   for (const int state_size : {10, 15, 20, 25, 30, 40}) {
     motex::LearnOptions options;
+    options.path_weight = 0;
     options.state_size = state_size;
     print_point("state size", state_size, options);
   }
   for (const int prior : {30, 100, 300, 1000}) {
     motex::LearnOptions options;
+    options.path_weight = 0;
     options.prior = prior;
     print_point("prior", prior, options);
   }
@@ -110,9 +112,11 @@ void measure(const std::filesystem::path& folder) {
   std::printf("%s, %zu clips, %zu held out in each of %d splits by clip; wanted: shared >= +7\n", dance.name.c_str(),
               dance.clips.size(), splits[0].held_out.size(), kSplits);
   std::printf("nats per frame over one global LDS of the same state size; clips: lowest, median, highest\n");
-  motex::LearnOptions shared, greedy, own;
+  motex::LearnOptions moves, shared, greedy, own;
+  shared.path_weight = greedy.path_weight = 0;
   greedy.init = motex::Init::kGreedy;
   own.basis = motex::Basis::kOwn;
+  print_splits(splits, {"shared, moves", moves, "(default)"});
   print_splits(splits, {"shared, merge", shared, "+7.8, of which +6.7 noise"});
   print_splits(splits, {"shared, greedy", greedy, "+5.8"});
   print_splits(splits, {"own, greedy", own, "no better"});
