@@ -20,6 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr int kSweeps = 20;
+constexpr double kFarthest = 1.25;  // τ
 
 std::size_t at(int idx) { return static_cast<std::size_t>(idx); }
 
@@ -56,7 +57,7 @@ class PackMaker {
   int best_example(int texton, const std::vector<int>& chosen) const;
   void cut_clips();
   void join_clips();
-  void join(int from, const std::vector<int>& first_of_texton);
+  void join(int from);
   void write_graph(const std::string& name);
   Json clip_entry(const EngineClip& clip) const;
 
@@ -128,31 +129,27 @@ void PackMaker::cut_clips() {
 }
 
 /// The transitions that leave a clip.
-void PackMaker::join(int from, const std::vector<int>& first_of_texton) {
+void PackMaker::join(int from) {
   const EngineClip& a = pack_.clips[at(from)];
   std::vector<EngineTransition> all;
-  for (std::size_t j = 0; j + 1 < first_of_texton.size(); ++j) {
-    const double m = transition(a.texton, static_cast<int>(j));
-    const std::size_t first = all.size();
-    if (m <= 0) continue;
-    double least = std::numeric_limits<double>::infinity(), sum = 0;
-    for (int b = first_of_texton[j]; b < first_of_texton[j + 1]; ++b) {
-      all.push_back({from, b, 0, distance(a.instance, pack_.clips[at(b)].instance), 0});
-      least = std::min(least, all.back().distance_cm);
-    }
-    for (std::size_t k = first; k < all.size(); ++k)
-      sum += all[k].probability = std::exp(-(all[k].distance_cm - least) / tau_);
-    for (std::size_t k = first; k < all.size(); ++k) all[k].probability *= m / sum;
+  for (int b = 0; b < static_cast<int>(pack_.clips.size()); ++b) {
+    const EngineClip& c = pack_.clips[at(b)];
+    const double m = transition(a.texton, c.texton);
+    if (m > 0) all.push_back({from, b, 0, m, distance(a.instance, c.instance), 0});
   }
+  std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.distance_cm < y.distance_cm; });
+  while (all.size() > 2 && all.back().distance_cm > kFarthest * tau_) all.pop_back();
+  for (EngineTransition& t : all)
+    t.probability = t.texton_probability * std::exp(-(t.distance_cm - all.front().distance_cm) / tau_);
   std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.probability > y.probability; });
   if (all.size() > at(options_.most_transitions)) all.resize(at(options_.most_transitions));
   double sum = 0;
   for (const EngineTransition& t : all) sum += t.probability;
+  const auto secs = [](const EngineClip& c) {
+    return static_cast<double>(c.clip.num_frames() - 1) * c.clip.frame_time_secs;
+  };
   for (EngineTransition& t : all) {
     t.probability /= sum;
-    const auto secs = [&](const EngineClip& c) {
-      return static_cast<double>(c.clip.num_frames() - 1) * c.clip.frame_time_secs;
-    };
     const double most = std::min({options_.blend, secs(a) / 2, secs(pack_.clips[at(t.to)]) / 2});
     t.blend_secs = most * std::min(1.0, t.distance_cm / tau_);
     pack_.transitions.push_back(t);
@@ -160,12 +157,9 @@ void PackMaker::join(int from, const std::vector<int>& first_of_texton) {
 }
 
 void PackMaker::join_clips() {
-  std::vector<int> first(model_.textons.size() + 1, 0);
-  for (const EngineClip& clip : pack_.clips) ++first[at(clip.texton) + 1];
-  for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   for (int a = 0; a < static_cast<int>(pack_.clips.size()); ++a) {
     job_.check_cancelled();
-    join(a, first);
+    join(a);
   }
 }
 
@@ -207,6 +201,7 @@ void PackMaker::write_graph(const std::string& name) {
     root["transitions"].push_back({{"from", pack_.clips[at(t.from)].name},
                                    {"to", pack_.clips[at(t.to)].name},
                                    {"probability", t.probability},
+                                   {"texton_probability", t.texton_probability},
                                    {"distance_cm", t.distance_cm},
                                    {"blend_secs", t.blend_secs}});
   pack_.graph = root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -35,10 +35,11 @@ struct EngineClip {
 };
 
 struct EngineTransition {
-  int from = 0, to = 0;    ///< clips
-  double probability = 0;  ///< of those that leave `from`: they add up to 1
-  double distance_cm = 0;  ///< between the last two frames of one and the first two of the other
-  double blend_secs = 0;   ///< cross-fade that hides it: blend · min(1, distance / the usual jump), 0 at 0
+  int from = 0, to = 0;           ///< clips
+  double probability = 0;         ///< of those that leave `from`: they add up to 1
+  double texton_probability = 0;  ///< M of their textons
+  double distance_cm = 0;         ///< between the last two frames of one and the first two of the other
+  double blend_secs = 0;          ///< cross-fade that hides it: blend · min(1, distance / the usual jump), 0 at 0
 };
 
 /// What an engine needs to dance by itself.
@@ -51,8 +52,9 @@ struct EnginePack {
 /// Of a texton, without all_examples, the example e is taken that makes
 ///   Σ_j M_ij d(end of e, start of e_j) + M_ji d(end of e_j, start of e)
 /// least, one texton after another until nothing changes. Between clips a and b of textons i and j the probability is
-/// ∝ M_ij exp(−(d(a, b) − least d to clips of j) / τ), τ the usual jump. Throws InvalidInput when the model has no
-/// texton that can be played.
+/// that of the endless dance (InstanceWalk) without its memory: ∝ M_ij exp(−d(a, b) / τ), τ the usual jump, followers
+/// farther than 1.25 τ left out where two nearer ones exist. Throws InvalidInput when the model has no texton that can
+/// be played.
 EnginePack make_engine_pack(const MotionTexture& model, const std::string& name,
                             const EngineExportOptions& options = {}, const JobContext& job = {});
 
