@@ -6,7 +6,7 @@ import unittest
 
 from command import CLIPS, CommandTest, run, write_cut
 
-COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert"]
+COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "inbetween", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert"]
 
 
 class Usage(CommandTest):
