@@ -15,9 +15,8 @@
 #include "motex/particles/pursuit.h"
 #include "motex/video_io/video_reader.h"
 
+namespace motex {
 namespace {
-
-using namespace motex;
 
 constexpr const char* kClips[] = {"textured/snow_forest_320x240.mp4",
                                   "textured/snow_birch_480x270.mp4",
@@ -70,9 +69,7 @@ void measure_clip(const std::filesystem::path& path) {
   measure(name, "paper, one level", frame, estimate_background(frame, frames, flat), paper);
 }
 
-}  // namespace
-
-int main() {
+int run() {
   const char* given = std::getenv("MOTEX_BENCH_DATA");
   const std::filesystem::path folder = given != nullptr && given[0] != '\0'
                                            ? std::filesystem::path(given)
@@ -84,4 +81,10 @@ int main() {
       std::printf("%s\n", error.what());
     }
   }
+  return 0;
 }
+
+}  // namespace
+}  // namespace motex
+
+int main() { return motex::run(); }

@@ -23,7 +23,11 @@ extern "C" {
 namespace motex {
 namespace {
 
-using namespace libav;
+using libav::error_text;
+using libav::Handle;
+using libav::new_frame;
+using libav::new_packet;
+using libav::silence;
 
 // Fixed: the bytes of some encoders depend on it.
 constexpr int kNumThreads = 4;
