@@ -10,6 +10,7 @@
 #include "interrupt.h"
 #include "motex/core/error.h"
 #include "parse.h"
+#include "reference.h"
 
 namespace motex::cli {
 namespace {
@@ -99,7 +100,9 @@ const Command& find_command(const CommandTable& table, std::vector<std::string>&
 /// True when the words ask for text that needs no command.
 bool print_text(const CommandTable& table, const std::vector<std::string>& words, Session& session) {
   const auto is_help = [](const std::string& word) { return word == "--help" || word == "-h" || word == "help"; };
-  if (is_help(words[0])) {
+  if (is_help(words[0]) && words.size() == 2 && words[1] == "--reference") {
+    session.result({}, reference_markdown(table));
+  } else if (is_help(words[0])) {
     session.result({}, help_overview(table, ""));
   } else if (words[0] == "--version") {
     session.result({}, "motex " MOTEX_VERSION "\n");

@@ -108,7 +108,8 @@ class C3dReader {
     layout.frame_size =
         static_cast<std::size_t>(4 * header_.num_points + header_.analog_per_frame) * (layout.is_float ? 4 : 2);
     const std::size_t room = bytes_.size() > layout.data_at ? bytes_.size() - layout.data_at : 0;
-    layout.num_frames = choose_num_frames(static_cast<double>(room / layout.frame_size));
+    layout.num_frames =
+        choose_num_frames(std::floor(static_cast<double>(room) / static_cast<double>(layout.frame_size)));
     return layout;
   }
 
