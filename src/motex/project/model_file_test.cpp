@@ -329,6 +329,29 @@ TEST(ModelFile, ReadsVersionOne) {
   EXPECT_DOUBLE_EQ(model.outside_deviation, 2.2844926133964893);
   EXPECT_EQ(model.global_statistics.count(), 146);
   EXPECT_EQ(model.feet.legs.size(), 2U);
+  EXPECT_TRUE(model.edits.empty());
+  check_clip(dance(model, 300));
+}
+
+TEST(ModelFile, ReadsVersionTwo) {
+  const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v2.motex";
+  const MotionTexture learned = load_learned_model(path);
+  EXPECT_TRUE(write_model_bytes(learned) == read_file(path));
+  EXPECT_DOUBLE_EQ(learned.features.reference_height, 84.000000000000043);
+  std::string edits;
+  for (const ModelEdit& edit : learned.edits) edits += edit_text(edit) + '\n';
+  EXPECT_EQ(edits, "name 1 long step\nmerge 1 3\nweight any 2 0.25\ndrop 0\n");
+  const MotionTexture model = load_model(path);
+  EXPECT_EQ(find_texton(model, "long step"), 1);
+  EXPECT_EQ(model.textons[3].merged_into, 1);
+  EXPECT_TRUE(model.textons[0].is_dropped);
+  EXPECT_EQ(model.textons[1].instances.size(), 5U);
+  EXPECT_EQ(model.textons[1].statistics.count(), 98);
+  EXPECT_NEAR(model.textons[1].dynamics.transition(0, 0), 1.8078100115377602, 1e-9);
+  EXPECT_FLOAT_EQ(model.corpus(10, 2), -1.46722138F);
+  EXPECT_NEAR(model.transitions.count(1, 1), 3.5, 1e-12);
+  EXPECT_NEAR(model.transitions.count(1, 2), 0.4, 1e-12);
+  EXPECT_NEAR(model.transitions.count(2, 1), 2.6, 1e-12);
   check_clip(dance(model, 300));
 }
 
