@@ -60,13 +60,18 @@ struct Synthesizer::State {
   /// The instance to begin at an output frame: with beats, rather one that can end on one.
   int next_from(Index start) {
     if (!grid) return walk.next();
-    return walk.next([&](int instance) { return std::exp(-kBeatTaste * std::min(400.0, grid->cost(instance, start))); });
+    return walk.next(
+        [&](int instance) { return std::exp(-kBeatTaste * std::min(400.0, grid->cost(instance, start))); });
   }
 
   Piece piece(int instance, int next, Index length) const {
     const Instance& a = model.instances[static_cast<std::size_t>(instance)];
-    return {a.texton, a.row, hand_over_row(model, a) + 2 - a.row,
-            a.row,    model.instances[static_cast<std::size_t>(next)].row, length};
+    return {a.texton,
+            a.row,
+            hand_over_row(model, a) + 2 - a.row,
+            a.row,
+            model.instances[static_cast<std::size_t>(next)].row,
+            length};
   }
 
   /// Decodes the next frame into `out`.

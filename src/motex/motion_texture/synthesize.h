@@ -51,7 +51,8 @@ class Synthesizer {
   /// Writes the next frame into row `frame` of a clip made with make_output_clip. False when a path that is not endless
   /// is over. Amortised cost: one constrained texton per segment.
   bool next(Clip& out, Index frame);
-  /// Textons begun since the last call; with planted feet held above the floor, frames come out up to 0.7 s after their texton began.
+  /// Textons begun since the last call; with planted feet held above the floor, frames come out up to 0.7 s after their
+  /// texton began.
   std::vector<PlayedTexton> take_played();
 
  private:
