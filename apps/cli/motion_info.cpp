@@ -7,7 +7,10 @@
 #include "clip_info.h"
 #include "commands.h"
 #include "motex/project/model_file.h"
+#include "motex/project/texton_audit.h"
+#include "motion_texton.h"
 #include "options_value.h"
+#include "output_file.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -42,6 +45,7 @@ Value textons_value(const MotionTexture& model, const std::vector<TextonSummary>
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     Value entry;
     entry["texton"] = static_cast<int>(i);
+    entry["name"] = model.textons[i].name;
     entry["instances"] = summaries[i].num_instances;
     entry["frames"] = std::int64_t{summaries[i].num_frames};
     entry["mean_length_secs"] = mean_length_secs(summaries[i], model);
@@ -87,23 +91,38 @@ Index max_state_size(const MotionTexture& model) {
 }
 
 struct Info {
-  std::string model_path;
+  std::string model_path, audit;
+  int audit_page = 0;
   bool list_textons = false, list_parts = false;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn; or a clip, or markers (.c3d, .trc)", model_path);
     arguments.toggle("--textons", "a table of all textons too", list_textons);
+    arguments.value("--audit", "PICTURE",
+                    "of a model: a row a texton, its segments side by side (.png, .svg); ten textons a page", audit);
+    arguments.value("--audit-page", "N", "which ten: 0 = those with most segments (default 0)", audit_page);
     arguments.toggle("--list", "of a clip or markers: a line a joint or marker", list_parts);
   }
 
   void run(Session& session) {
+    if (!audit.empty()) check_output(audit, {".png", ".svg"}, session);
+    if (is_motion_file(model_path) && !audit.empty()) throw InvalidInput("--audit shows textons; name a model");
     if (is_motion_file(model_path)) return report_motion_file(model_path, list_parts, session);
     const MotionTexture model = load_model(model_path);
+    if (!audit.empty()) draw_audit(model, session);
     const auto summaries = summarise(model);
     session.result(value(model, summaries), text(model, summaries));
   }
 
  private:
+  void draw_audit(const MotionTexture& model, Session& session) const {
+    const Drawing drawing = texton_audit(model, audit_page);
+    if (session.flags.dry_run) return;
+    write_picture(audit, drawing);
+    session.say("wrote " + audit + ", page " + std::to_string(audit_page) + " of 0 … " +
+                std::to_string(num_audit_pages(model) - 1));
+  }
+
   Value value(const MotionTexture& model, const std::vector<TextonSummary>& summaries) const {
     const LengthRange lengths = length_range(model);
     Value object;
@@ -125,6 +144,7 @@ struct Info {
     object["seed"] = model.options.seed;
     object["options"] = options_value(model.options);
     object["clips"] = clips_value(model);
+    object["edits"] = edits_value(model);
     object["texton_list"] = textons_value(model, summaries);
     return object;
   }
@@ -153,6 +173,8 @@ struct Info {
     for (std::size_t i = 0; i < model.clip_names.size(); ++i)
       out += (i == 0 ? "clips         " : "              ") + model.clip_names[i] + ", " +
              std::to_string(model.clip_lengths.at(i)) + " frames\n";
+    for (std::size_t i = 0; i < model.edits.size(); ++i)
+      out += (i == 0 ? "edits         " : "              ") + edit_text(model.edits[i]) + "\n";
     return list_textons ? out + "\n" + textons_table(model, summaries) : out;
   }
 
@@ -173,6 +195,7 @@ Command motion_info() {
                              "motex motion info dance.motex\n"
                              "motex motion info dance.motex --textons\n"
                              "motex motion info dance.motex --json\n"
+                             "motex motion info dance.motex --audit textons.png\n"
                              "motex motion info take3.c3d --list"});
 }
 

@@ -146,7 +146,8 @@ struct Learn {
 
   std::string threshold_unit() const {
     const bool greedy = options.init == Init::kGreedy || (options.init == Init::kAuto && options.basis == Basis::kOwn);
-    return greedy ? "cm" : "nats";
+    const bool with_paths = options.basis == Basis::kShared && options.path_weight > 0;
+    return greedy ? "cm" : with_paths ? "pieces a texton" : "nats";
   }
 
   void run_sweep(const std::vector<Clip>& clips, const std::vector<double>& thresholds, Session& session, double share,

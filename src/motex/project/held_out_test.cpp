@@ -103,6 +103,7 @@ TEST(Sweep, PointsComeInOrderAndHoldTheirFormulas) {
   LearnOptions options;
   options.state_size = 6;
   options.max_iterations = 5;
+  options.path_weight = 0;  // thresholds are nats
   const HeldOutSplit split = split_clips(walks(4, 400));
   const auto points = sweep_threshold(split, {300, 3, 30}, options);
   ASSERT_EQ(points.size(), 3U);

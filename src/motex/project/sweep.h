@@ -12,7 +12,7 @@ namespace motex {
 
 /// A model learned with one threshold.
 struct SweepPoint {
-  double threshold = 0;  ///< cm (greedy) or nats (merge)
+  double threshold = 0;  ///< cm (greedy), pieces a texton (merge) or nats (merge without paths)
   bool is_auto = false;  ///< the one that learning chooses by itself
   int num_textons = 0;
   int num_segments = 0;
