@@ -198,8 +198,8 @@ struct Play {
       }
     }
 
-    void read_commands(double secs) {
-      input.wait(secs);
+    void read_commands(double wait_secs) {
+      input.wait(wait_secs);
       for (std::string line; input.next(line);) {
         SteerCommand command;
         try {
