@@ -6,7 +6,8 @@ import unittest
 
 from command import CLIPS, CommandTest, run, write_cut
 
-COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "inbetween", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert"]
+COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "inbetween", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert",
+            "retarget", "play", "export"]
 
 
 class Usage(CommandTest):
