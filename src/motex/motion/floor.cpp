@@ -142,8 +142,9 @@ void FloorFixer::State::lift(const Vector& by, Clip& out, Index frame) {
   forward_kinematics(out, frame, pose);
   double body = by[num_legs()];
   std::vector<LegSolution> solved(model.legs.size());
+  double missing = 0;
   for (int round = 0; round < kShares; ++round) {
-    double missing = 0;
+    missing = 0;
     for (Index l = 0; l < num_legs(); ++l) {
       const Leg& leg = model.legs[static_cast<std::size_t>(l)];
       const double foot = std::max(by[l], body);
@@ -158,6 +159,7 @@ void FloorFixer::State::lift(const Vector& by, Clip& out, Index frame) {
     }
     if (round + 1 < kShares) body += missing;
   }
+  body += missing;  // legs and all
   const auto& joints = out.skeleton.joints;
   const auto above = [&](int j) {
     const int parent = joints[static_cast<std::size_t>(j)].parent_idx;
