@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "motex/motion_texture/features.h"
 #include "motex/project/load_clips.h"
 
 /// Clips that the benchmarks of motion measure on.
@@ -60,6 +61,16 @@ inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+/// The clip with its heading taken out, so that only the body's own shape is compared and not where the dancer looks.
+inline Clip without_heading(const FeatureSpace& space, Clip clip) {
+  for (Index t = 0; t < clip.num_frames(); ++t) {
+    const double heading = root_place(space, clip, t).heading;
+    const Quat turn(Eigen::AngleAxisd(-heading, Vector3::UnitY()));
+    clip.set_rotation(t, space.travelling_joint, turn * clip.rotation(t, space.travelling_joint));
+  }
+  return clip;
 }
 
 /// Runs a benchmark; what goes wrong becomes one line and exit code 1.

@@ -13,16 +13,6 @@ namespace {
 
 constexpr std::uint64_t kSeeds = 5;
 
-/// The clip with its heading taken out, so that only the body's own shape is compared and not where the dancer looks.
-motex::Clip without_heading(const motex::FeatureSpace& space, motex::Clip clip) {
-  for (motex::Index t = 0; t < clip.num_frames(); ++t) {
-    const double heading = motex::root_place(space, clip, t).heading;
-    const motex::Quat turn(Eigen::AngleAxisd(-heading, motex::Vector3::UnitY()));
-    clip.set_rotation(t, space.travelling_joint, turn * clip.rotation(t, space.travelling_joint));
-  }
-  return clip;
-}
-
 std::vector<motex::Clip> reference_clip(const std::filesystem::path& folder) {
   std::vector<motex::Clip> clips = motex::bench::clips_of(folder / "quickstart", "salsa_cmu61_10");
   if (clips.empty()) throw motex::InvalidInput("no quickstart/salsa_cmu61_10.bvh in " + folder.string());
@@ -42,8 +32,9 @@ void print_coverage(const std::string& name, const std::vector<motex::Clip>& cli
     motex::SynthesizeReport made;
     const motex::Clip dance = motex::synthesize_motion(model, 2 * clips[0].num_frames(), {}, how, made);
     const motex::CompareReport report = motex::compare_motion(clips, dance);
-    const motex::Clip facing_ahead = without_heading(model.features, clips[0]);
-    const motex::CompareReport body = motex::compare_motion({&facing_ahead, 1}, without_heading(model.features, dance));
+    const motex::Clip facing_ahead = motex::bench::without_heading(model.features, clips[0]);
+    const motex::CompareReport body =
+        motex::compare_motion({&facing_ahead, 1}, motex::bench::without_heading(model.features, dance));
     std::printf("  seed %d   %6.2f   %6.3f   %6.3f   | without heading %6.2f   %6.3f   %6.3f\n", static_cast<int>(seed),
                 100 * report.coverage, report.global_diversity, report.local_diversity, 100 * body.coverage,
                 body.global_diversity, body.local_diversity);
