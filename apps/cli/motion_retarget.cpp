@@ -22,12 +22,15 @@ struct PostureName {
   std::string text = "rest";
 
   void declare(Arguments& arguments, const std::string& flag, const std::string& whose) {
-    arguments.value(flag, "FRAME", "frame of " + whose + " that shows the common posture (default: rest; with a skin, as it was bound)", text).set =
-        [this, flag](const std::string& value) {
-          std::int64_t frame = 0;
-          if (value != "rest") parse_value(flag, value, frame);
-          text = value;
-        };
+    arguments
+        .value(flag, "FRAME",
+               "frame of " + whose + " that shows the common posture (default: rest; with a skin, as it was bound)",
+               text)
+        .set = [this, flag](const std::string& value) {
+      std::int64_t frame = 0;
+      if (value != "rest") parse_value(flag, value, frame);
+      text = value;
+    };
   }
   PosedSkeleton of(const Clip& clip) const {
     return text == "rest" ? as_bound(clip.skeleton) : at_frame(clip, std::stol(text));

@@ -202,7 +202,7 @@ class Interrupted(CommandTest):
     def test_learning_leaves_the_old_model(self):
         model = self.model()
         before = model.read_bytes()
-        self.interrupt("motion", "learn", *(CLIPS * 4), "-o", model, "--force")
+        self.interrupt("motion", "learn", *(CLIPS * 40), "-o", model, "--force")
         self.assertEqual(model.read_bytes(), before)
 
     def test_synthesizing_leaves_nothing(self):

@@ -3,6 +3,7 @@
 #include "marker_fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return motex::fuzz_markers(
-      [&] { return motex::read_c3d_bytes({reinterpret_cast<const char*>(data), size}, "fuzz.c3d"); });
+  return motex::fuzz_markers([&] {
+    return motex::read_c3d_bytes({reinterpret_cast<const char*>(data), size}, "fuzz.c3d");
+  });
 }

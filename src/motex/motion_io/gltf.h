@@ -24,7 +24,8 @@ Clip read_gltf_bytes(std::string_view bytes, const std::string& name, const Read
 /// Binary glTF 2.0: a node a joint, a skinned mesh of sticks (so that programs see an armature), one animation "motion"
 /// with linear keys at every frame; tracks that stand still have one key or, at rest, none. Lengths are metres by
 /// metres_per_unit_or_guess, as asset.extras says. End sites are kept in the extras of their joints.
-/// A skeleton that has a skin whose joints it has (skin_fits) gets that instead of sticks; the skin grows with the bones.
+/// A skeleton that has a skin whose joints it has (skin_fits) gets that instead of sticks; the skin grows with the
+/// bones.
 std::string write_glb_bytes(const Clip& clip);
 /// Several animations of one skeleton, each by the name of its clip. Throws InvalidInput when skeletons differ.
 std::string write_glb_bytes(std::span<const Clip> clips);

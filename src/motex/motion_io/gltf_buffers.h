@@ -28,7 +28,8 @@ struct GltfElements {
 };
 /// Bytes of a component, 0 for unknown types.
 std::uint64_t gltf_component_size(int component_type);
-/// All numbers as double; integers of 8 and 16 bits are mapped to 0 … 1 or −1 … 1. Throws InvalidInput when the bytes do not hold them.
+/// All numbers as double; integers of 8 and 16 bits are mapped to 0 … 1 or −1 … 1. Throws InvalidInput when the bytes
+/// do not hold them.
 std::vector<double> decode_gltf_elements(std::string_view bytes, const GltfElements& elements, const std::string& name);
 
 }  // namespace motex

@@ -69,7 +69,7 @@ struct MotionTexture {
   std::vector<std::string> clip_names;
   std::vector<Index> clip_lengths;  ///< frames as read
   FrameMatrixF corpus;              ///< frames × D: weighted features of all runs, one after another
-  Vector heights;  ///< frames: channel 2 unrounded, so that ends are met; empty: as in corpus
+  Vector heights;                   ///< frames: channel 2 unrounded, so that ends are met; empty: as in corpus
   std::vector<Run> runs;
   std::vector<Subspace> subspaces;  ///< one (shared basis), or one a texton (own basis)
   std::vector<Texton> textons;
