@@ -57,6 +57,20 @@ inline Index total_frames(const std::vector<Clip>& clips) {
   return total;
 }
 
+struct Split {
+  std::vector<Clip> training, held_out;
+};
+
+/// Every 7th clip by name, from the split's number on; of fewer than 14 clips, one.
+inline Split split_by_clip(const std::vector<Clip>& clips, std::size_t split) {
+  constexpr std::size_t kStep = 7;
+  const std::size_t step = clips.size() >= 2 * kStep ? kStep : clips.size();
+  Split parts;
+  for (std::size_t i = 0; i < clips.size(); ++i)
+    (i % step == split % step ? parts.held_out : parts.training).push_back(clips[i]);
+  return parts;
+}
+
 inline double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;

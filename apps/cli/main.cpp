@@ -86,7 +86,7 @@ const Command& find_command(const CommandTable& table, std::vector<std::string>&
   std::size_t num_known = 0;  // the longest beginning that is one of a command's name
   std::string group;
   std::vector<std::string> known = words_after(table, "");
-  known.push_back("completion");
+  known.emplace_back("completion");
   while (num_known < words.size() && std::find(known.begin(), known.end(), words[num_known]) != known.end()) {
     group += (group.empty() ? "" : " ") + words[num_known++];
     known = words_after(table, group);

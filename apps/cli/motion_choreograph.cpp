@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "clip_beside.h"
 #include "clip_output.h"
 #include "closest.h"
 #include "commands.h"
@@ -15,18 +16,6 @@
 
 namespace motex::cli {
 namespace {
-
-/// "salsa_01@120".
-ClipFrame parse_clip_frame(const std::string& flag, const std::string& text) {
-  const std::size_t at = text.rfind('@');
-  if (at == std::string::npos || at == 0) throw InvalidInput(flag + ": '" + text + "' is not CLIP@FRAME");
-  ClipFrame pose;
-  pose.clip = text.substr(0, at);
-  std::int64_t frame = 0;
-  parse_value(flag, text.substr(at + 1), frame);
-  pose.frame = frame;
-  return pose;
-}
 
 /// "salsa_01@120:300".
 ChoreographyRequest::Via parse_via(const std::string& text) {
@@ -124,7 +113,11 @@ struct Choreograph {
     check_outputs(outputs, clip_output_extensions(), session);
     check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
-    if (session.flags.dry_run) return report_dry_run(model, request, session);
+    if (session.flags.dry_run) {
+      corpus_row(model, request.start);
+      corpus_row(model, request.end);
+      return would_write(outputs, frames, session);
+    }
     ChoreographyReport report;
     Clip clip = choreograph(model, request, options, report, session.job(0, 0.9));
     ClipPicture picture;
@@ -148,18 +141,6 @@ struct Choreograph {
     for (const std::string& text : reach) request.reach.push_back(parse_reach(text));
     if (!place.empty()) request.place = parse_place(place);
     return request;
-  }
-
-  void report_dry_run(const MotionTexture& model, const ChoreographyRequest& request, Session& session) const {
-    corpus_row(model, request.start);
-    corpus_row(model, request.end);
-    Value object;
-    object["dry_run"] = true;
-    object["frames"] = frames;
-    object["output"] = outputs;
-    std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
-    session.result(object, text);
   }
 
   static InstanceSource source_of_played(const MotionTexture& model, const ChoreographedTexton& played) {

@@ -131,7 +131,7 @@ struct Edit {
     for (const std::string& text : pose) edits.push_back(posed(model, text, session));
     EditReport report;
     const Clip clip = edit_texton(model, instance, edits, options, report, session.job(0.1, 0.9));
-    if (session.flags.dry_run) return report_dry_run(session);
+    if (session.flags.dry_run) return would_write(outputs, -1, session);
     ClipPicture picture;
     picture.title = described(source_of(model, instance)) + ", edited";
     picture.spans = {{model.instances[static_cast<std::size_t>(instance)].texton, 0, clip.num_frames(),
@@ -175,15 +175,6 @@ struct Edit {
       edit.pose = encode(model.features, before).bottomRows(1).transpose();
     }
     return edit;
-  }
-
-  void report_dry_run(Session& session) const {
-    Value object;
-    object["dry_run"] = true;
-    object["output"] = outputs;
-    std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
-    session.result(object, text);
   }
 
   Value report_value(const MotionTexture& model, int instance, const Clip& clip, const EditReport& report,

@@ -56,7 +56,7 @@ struct Inbetween {
     const Index gap_start = join ? before.num_frames() : 0;
     if (join) clip = joined(model, before, clip, after, report);
     clip.name = "in-between";
-    if (session.flags.dry_run) return report_dry_run(clip.num_frames(), session);
+    if (session.flags.dry_run) return would_write(outputs, clip.num_frames(), session);
     ClipPicture picture;
     picture.title = from + " → " + to;
     write_clip_outputs(outputs, clip, picture, adapt, session);
@@ -78,16 +78,6 @@ struct Inbetween {
       at += part->num_frames();
     }
     return out;
-  }
-
-  void report_dry_run(Index num_frames, Session& session) const {
-    Value object;
-    object["dry_run"] = true;
-    object["frames"] = std::int64_t{num_frames};
-    object["output"] = outputs;
-    std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
-    session.result(object, text);
   }
 
   Value report_value(const Clip& clip, Index gap_start, const InbetweenReport& report, const Session& session) const {

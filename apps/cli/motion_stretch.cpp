@@ -38,7 +38,7 @@ struct Stretch {
     check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
-    if (session.flags.dry_run) return report_dry_run(session);
+    if (session.flags.dry_run) return would_write(outputs, frames, session);
     StretchReport report;
     const Clip clip = stretch_texton(model, instance, frames, options, report, session.job(0, 0.9));
     ClipPicture picture;
@@ -52,16 +52,6 @@ struct Stretch {
   }
 
  private:
-  void report_dry_run(Session& session) const {
-    Value object;
-    object["dry_run"] = true;
-    object["frames"] = frames;
-    object["output"] = outputs;
-    std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
-    session.result(object, text);
-  }
-
   static InstanceSource source_of_visit(const MotionTexture& model, const PlayedVisit& visit) {
     InstanceSource source = source_of(model, visit.instance);
     source.start += visit.source_start;

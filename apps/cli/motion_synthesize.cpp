@@ -88,7 +88,7 @@ struct Synthesize {
     const int texton = unconstrained ? texton_number(model, "--texton", texton_text) : -1;
     if (!beats_path.empty()) options.beats = load_beats(beats_path, session.job(0, 0.1));
     put_on_skin(skin_path, model.features.skeleton, session);
-    if (session.flags.dry_run) return report_dry_run(num_frames, session);
+    if (session.flags.dry_run) return would_write(written_paths(), num_frames, session);
     if (!feet_text.empty()) name_feet(model, split_at_commas(feet_text), session.job(0, 0.1));
     std::vector<Dance> dances = dance(model, num_frames, textons, texton, session);
     const std::string stem = std::filesystem::path(model_path).stem().string();
@@ -218,16 +218,6 @@ struct Synthesize {
       if (holds_all(path)) shared.push_back(path);
     if (shared.empty()) return;
     write_clip_outputs(shared, side_by_side(clips, kApartCm / model.features.cm_per_unit), {}, adapt, session);
-  }
-
-  void report_dry_run(Index num_frames, Session& session) const {
-    Value object;
-    object["dry_run"] = true;
-    object["frames"] = std::int64_t{num_frames};
-    object["output"] = written_paths();
-    std::string text;
-    for (const std::string& path : written_paths()) text += "would write " + path + "\n";
-    session.result(object, text);
   }
 
   Value report_value(const MotionTexture& model, const std::vector<Dance>& dances, const Session& session) const {

@@ -36,7 +36,7 @@ struct Vary {
     check_adapt(adapt, outputs);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
-    if (session.flags.dry_run) return report_dry_run(session);
+    if (session.flags.dry_run) return would_write(outputs, -1, session);
     VaryReport report;
     const Clip clip = vary_texton(model, instance, options, report);
     ClipPicture picture;
@@ -52,15 +52,6 @@ struct Vary {
   }
 
  private:
-  void report_dry_run(Session& session) const {
-    Value object;
-    object["dry_run"] = true;
-    object["output"] = outputs;
-    std::string text;
-    for (const std::string& path : outputs) text += "would write " + path + "\n";
-    session.result(object, text);
-  }
-
   Value report_value(const MotionTexture& model, int instance, const Clip& clip, const VaryReport& report,
                      const Session& session) const {
     Value object;

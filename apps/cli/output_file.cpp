@@ -43,4 +43,14 @@ void check_outputs(const std::vector<std::string>& paths, const std::vector<std:
   }
 }
 
+void would_write(const std::vector<std::string>& paths, std::int64_t num_frames, Session& session) {
+  Value object;
+  object["dry_run"] = true;
+  if (num_frames >= 0) object["frames"] = num_frames;
+  object["output"] = paths;
+  std::string text;
+  for (const std::string& path : paths) text += "would write " + path + "\n";
+  session.result(object, text);
+}
+
 }  // namespace motex::cli

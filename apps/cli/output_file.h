@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,8 @@ void check_output(const std::string& path, const std::vector<std::string>& exten
 /// The same for several, which must differ.
 void check_outputs(const std::vector<std::string>& paths, const std::vector<std::string>& extensions,
                    const Session& session);
+
+/// The result of --dry-run of a command that writes so many frames; −1: nobody knows yet.
+void would_write(const std::vector<std::string>& paths, std::int64_t num_frames, Session& session);
 
 }  // namespace motex::cli

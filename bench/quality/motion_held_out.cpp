@@ -10,20 +10,6 @@ namespace {
 using motex::bench::Dance;
 
 constexpr int kSplits = 3;
-constexpr std::size_t kStep = 7;
-
-struct Split {
-  std::vector<motex::Clip> training, held_out;
-};
-
-/// Every 7th clip by name, from the split's number on; of fewer than 14 clips, one.
-Split split_by_clip(const std::vector<motex::Clip>& clips, std::size_t split) {
-  const std::size_t step = clips.size() >= 2 * kStep ? kStep : clips.size();
-  Split parts;
-  for (std::size_t i = 0; i < clips.size(); ++i)
-    (i % step == split % step ? parts.held_out : parts.training).push_back(clips[i]);
-  return parts;
-}
 
 struct Gain {
   double nats = 0;  ///< per frame over the global system
@@ -35,7 +21,7 @@ double nats_gained(const motex::ScoreReport& score) {
   return score.log_likelihood_per_frame - score.global_lds_log_likelihood_per_frame;
 }
 
-Gain held_out_gain(const Split& split, const motex::LearnOptions& options) {
+Gain held_out_gain(const motex::bench::Split& split, const motex::LearnOptions& options) {
   motex::LearnReport report;
   const motex::MotionTexture model = motex::learn_motion_texture(split.training, options, report);
   const motex::ScoreReport score = motex::score_clips(model, split.held_out);
@@ -51,11 +37,11 @@ struct Row {
   const char* known;
 };
 
-void print_splits(const std::vector<Split>& splits, const Row& row) {
+void print_splits(const std::vector<motex::bench::Split>& splits, const Row& row) {
   std::string gains, controls, textons;
   std::vector<double> by_clip;
   double sum = 0, control_sum = 0;
-  for (const Split& split : splits) {
+  for (const motex::bench::Split& split : splits) {
     const Gain gain = held_out_gain(split, row.options);
     sum += gain.nats;
     by_clip.insert(by_clip.end(), gain.by_clip.begin(), gain.by_clip.end());
@@ -82,7 +68,7 @@ void print_splits(const std::vector<Split>& splits, const Row& row) {
   std::printf("   textons %s   known %s\n", textons.c_str(), row.known);
 }
 
-void print_curve(const Split& split) {
+void print_curve(const motex::bench::Split& split) {
   std::printf("curve on split 0: full, noise only\n");
   const auto print_point = [&](const char* name, int value, motex::LearnOptions options) {
     const Gain gain = held_out_gain(split, options);
@@ -107,8 +93,8 @@ void print_curve(const Split& split) {
 
 void measure(const std::filesystem::path& folder) {
   const Dance dance = motex::bench::all_dances(folder).back();
-  std::vector<Split> splits;
-  for (std::size_t i = 0; i < kSplits; ++i) splits.push_back(split_by_clip(dance.clips, i));
+  std::vector<motex::bench::Split> splits;
+  for (std::size_t i = 0; i < kSplits; ++i) splits.push_back(motex::bench::split_by_clip(dance.clips, i));
   std::printf("%s, %zu clips, %zu held out in each of %d splits by clip; wanted: shared >= +7\n", dance.name.c_str(),
               dance.clips.size(), splits[0].held_out.size(), kSplits);
   std::printf("nats per frame over one global LDS of the same state size; clips: lowest, median, highest\n");

@@ -13,21 +13,8 @@ namespace {
 using motex::Clip;
 using motex::Index;
 
-constexpr std::size_t kStep = 7;
 constexpr int kSplits = 3;
 constexpr Index kContext = 10, kEvery = 40;
-
-struct Split {
-  std::vector<Clip> training, held_out;
-};
-
-Split split_by_clip(const std::vector<Clip>& clips, std::size_t split) {
-  const std::size_t step = clips.size() >= 2 * kStep ? kStep : clips.size();
-  Split parts;
-  for (std::size_t i = 0; i < clips.size(); ++i)
-    (i % step == split % step ? parts.held_out : parts.training).push_back(clips[i]);
-  return parts;
-}
 
 struct Method {
   std::string name;
@@ -35,7 +22,8 @@ struct Method {
 };
 
 /// All methods on all gaps of one length.
-void fill_gaps(const Split& split, const motex::MotionTexture& model, Index gap, std::vector<Method>& methods) {
+void fill_gaps(const motex::bench::Split& split, const motex::MotionTexture& model, Index gap,
+               std::vector<Method>& methods) {
   const int root = model.features.travelling_joint;
   const motex::Vector deviations = motex::window_position_deviations(split.training, root);
   for (Method& method : methods) method.measures.emplace_back(deviations, root);
@@ -82,10 +70,10 @@ void measure(const std::filesystem::path& folder) {
   const motex::bench::Dance dance = motex::bench::all_dances(folder).back();
   std::vector<Clip> clips;
   for (const Clip& clip : dance.clips) clips.push_back(resample(clip, 1.0 / 30));
-  std::vector<Split> splits;
+  std::vector<motex::bench::Split> splits;
   std::vector<motex::MotionTexture> models;
   for (int i = 0; i < kSplits; ++i) {
-    splits.push_back(split_by_clip(clips, static_cast<std::size_t>(i)));
+    splits.push_back(motex::bench::split_by_clip(clips, static_cast<std::size_t>(i)));
     motex::LearnReport report;
     models.push_back(learn_motion_texture(splits.back().training, {}, report));
   }

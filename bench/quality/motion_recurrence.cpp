@@ -11,27 +11,14 @@
 
 namespace {
 
-constexpr std::size_t kStep = 7;
 constexpr std::size_t kSplits = 3;
-
-struct Split {
-  std::vector<motex::Clip> training, held_out;
-};
-
-/// Every 7th clip by name, from the split's number on; of fewer than 14 clips, one.
-Split split_by_clip(const std::vector<motex::Clip>& clips, std::size_t split) {
-  const std::size_t step = clips.size() >= 2 * kStep ? kStep : clips.size();
-  Split parts;
-  for (std::size_t i = 0; i < clips.size(); ++i)
-    (i % step == split % step ? parts.held_out : parts.training).push_back(clips[i]);
-  return parts;
-}
 
 double gain(const motex::ScoreReport& score) {
   return score.log_likelihood_per_frame - score.global_lds_log_likelihood_per_frame;
 }
 
-void print_split(const std::string& name, const Split& split, const motex::LearnOptions& options, bool with_control) {
+void print_split(const std::string& name, const motex::bench::Split& split, const motex::LearnOptions& options,
+                 bool with_control) {
   motex::LearnReport learned;
   const motex::MotionTexture model = motex::learn_motion_texture(split.training, options, learned);
   const motex::RecurrenceReport report = motex::measure_recurrence(model, split.held_out);
@@ -59,9 +46,9 @@ void measure(const std::filesystem::path& folder, bool with_curve) {
       "                       textons segs  s/t     label  random   ratio (nearest)  seen  chance           (n)"
       "   nats: best, along labels, noise only\n");
   for (std::size_t s = 0; s < kSplits; ++s)
-    print_split("default, split " + std::to_string(s), split_by_clip(dance.clips, s), {}, true);
+    print_split("default, split " + std::to_string(s), motex::bench::split_by_clip(dance.clips, s), {}, true);
   if (!with_curve) return;
-  const Split split = split_by_clip(dance.clips, 0);
+  const motex::bench::Split split = motex::bench::split_by_clip(dance.clips, 0);
   for (const double weight : {0.0, 1.0, 2.0, 4.0, 16.0}) {
     motex::LearnOptions options;
     options.path_weight = weight;

@@ -10,6 +10,7 @@
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/motion/foot_fix_solver.h"
+#include "motex/motion/whole_clip.h"
 
 namespace motex {
 namespace {
@@ -287,21 +288,8 @@ FootFixReport FootFixer::report() const {
 
 FootFixReport fix_feet(Clip& clip, const FootModel& model, const FootFixOptions& options,
                        std::span<const Index> pinned) {
-  std::vector<std::uint8_t> is_pinned(static_cast<std::size_t>(clip.num_frames()), 0);
-  for (const Index frame : pinned) {
-    if (frame < 0 || frame >= clip.num_frames())
-      throw InvalidInput("frame " + std::to_string(frame) + " cannot be pinned: " + clip.name + " has " +
-                         std::to_string(clip.num_frames()));
-    is_pinned[static_cast<std::size_t>(frame)] = 1;
-  }
   FootFixer fixer(model, clip.skeleton, clip.frame_time_secs, options);
-  Index out = 0;
-  for (Index t = 0; t < clip.num_frames(); ++t) {
-    fixer.push(clip, t, is_pinned[static_cast<std::size_t>(t)] != 0);
-    while (fixer.pop(clip, out)) ++out;
-  }
-  fixer.finish();
-  while (fixer.pop(clip, out)) ++out;
+  fix_whole_clip(fixer, clip, pinned);
   return fixer.report();
 }
 

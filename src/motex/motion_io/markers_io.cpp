@@ -11,6 +11,7 @@
 #include "motex/core/options_check.h"
 #include "motex/motion/up_axis.h"
 #include "motex/motion_io/c3d.h"
+#include "motex/motion_io/csv_text.h"
 #include "motex/motion_io/npz.h"
 #include "motex/motion_io/text_scanner.h"
 #include "motex/motion_io/trc.h"
@@ -39,19 +40,6 @@ Kind kind_of(std::string_view start, const std::string& name) {
   if (extension == ".c3d") return other_text ? Kind::kNone : Kind::kC3d;
   if (extension == ".trc") return marked ? Kind::kC3d : Kind::kTrc;
   return marked && !other_text ? Kind::kC3d : Kind::kNone;
-}
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
-void append(std::string& text, double value) {
-  char buffer[40];
-  const double rounded = std::round(value * 1e9) / 1e9 + 0.0;  // + 0.0: no −0
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, rounded).ptr);
 }
 
 MarkerSet finished(MarkerSet markers, const ReadClipOptions& options, const JobContext& job) {
@@ -131,13 +119,13 @@ std::string write_csv_bytes(const MarkerSet& markers) {
   check_markers(markers);
   std::string text = "frame,time";
   for (const std::string& name : markers.names)
-    for (const char* axis : {".X", ".Y", ".Z"}) text += "," + cell(name + axis);
+    for (const char* axis : {".X", ".Y", ".Z"}) text += "," + csv_cell(name + axis);
   text += '\n';
   for (Index t = 0; t < markers.num_frames(); ++t) {
-    append(text += std::to_string(t) + ",", static_cast<double>(t) * markers.frame_time_secs);
+    append_csv_number(text += std::to_string(t) + ",", static_cast<double>(t) * markers.frame_time_secs);
     for (Index c = 0; c < markers.positions.cols(); ++c) {
       text += ',';
-      if (!std::isnan(markers.positions(t, c))) append(text, markers.positions(t, c));
+      if (!std::isnan(markers.positions(t, c))) append_csv_number(text, markers.positions(t, c));
     }
     text += '\n';
   }

@@ -8,26 +8,13 @@
 #include <vector>
 
 #include "motex/core/files.h"
+#include "motex/motion_io/csv_text.h"
 #include "motex/motion_io/euler_channels.h"
 
 namespace motex {
 namespace {
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr double kSteps = 1e9;  // of the last decimal written
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
-void append(std::string& text, double value) {
-  char buffer[40];
-  const double rounded = std::round(value * kSteps) / kSteps + 0.0;  // + 0.0: no −0
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, rounded).ptr);
-}
 
 }  // namespace
 
@@ -40,19 +27,19 @@ std::string write_csv_bytes(const Clip& clip) {
     channels.push_back(channels_for_motion(clip, j));
     tracks.emplace_back(channels.back());
     for (const Channel c : channels.back())
-      text += "," + cell(clip.skeleton.joints[static_cast<std::size_t>(j)].name + "." + channel_name(c));
+      text += "," + csv_cell(clip.skeleton.joints[static_cast<std::size_t>(j)].name + "." + channel_name(c));
   }
   text += '\n';
   for (Index t = 0; t < clip.num_frames(); ++t) {
-    append(text += std::to_string(t) + ",", static_cast<double>(t) * clip.frame_time_secs);
+    append_csv_number(text += std::to_string(t) + ",", static_cast<double>(t) * clip.frame_time_secs);
     for (int j = 0; j < clip.skeleton.num_joints(); ++j) {
       const auto& own = channels[static_cast<std::size_t>(j)];
       if (own.empty()) continue;
       const Vector3& angles = tracks[static_cast<std::size_t>(j)].next(clip.rotation(t, j));
       int num_angles = 0;
       for (const Channel c : own)
-        append(text += ',',
-               is_position(c) ? clip.translations(t, 3 * j + axis_of(c)) : angles[num_angles++] * kDegPerRad);
+        append_csv_number(
+            text += ',', is_position(c) ? clip.translations(t, 3 * j + axis_of(c)) : angles[num_angles++] * kDegPerRad);
     }
     text += '\n';
   }
