@@ -44,7 +44,7 @@ Skeleton rig_skeleton(const Rig& rig) {
   std::string above = rig.pelvis;
   const auto chain = [&](std::string from, const std::vector<std::string>& names) {
     for (const std::string& name : names)
-      if (!name.empty()) joints.push_back({name, from}), from = name;
+      if (!name.empty()) joints.emplace_back(name, from), from = name;
     return from;
   };
   const std::string chest = chain(above, rig.spine);

@@ -24,8 +24,7 @@ Clip walk() {
 /// The same bones in another posture and scale: every joint's frame is turned, so that a body at rest looks otherwise.
 Skeleton bent(const Skeleton& skeleton, double scale) {
   Skeleton out = skeleton;
-  for (std::size_t j = 0; j < out.joints.size(); ++j) {
-    Joint& joint = out.joints[j];
+  for (Joint& joint : out.joints) {
     joint.offset *= scale;
     const bool arm = joint.name.find("ForeArm") != std::string::npos || joint.name.find("Hand") != std::string::npos;
     if (arm) joint.offset = exp_map(Vector3(0, 0, joint.name.starts_with("Left") ? -0.7 : 0.7)) * joint.offset;

@@ -110,7 +110,7 @@ Clip finished(Clip clip, const ReadClipOptions& options, const JobContext& job) 
 const std::vector<std::string>& readable_clip_extensions() {
   static const std::vector<std::string> extensions = [] {
     std::vector<std::string> all{".bvh", ".amc", ".glb", ".gltf"};
-    if (reads_fbx()) all.push_back(".fbx");
+    if (reads_fbx()) all.emplace_back(".fbx");
     return all;
   }();
   return extensions;
