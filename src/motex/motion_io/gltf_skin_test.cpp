@@ -229,7 +229,7 @@ class Player {
         sum += weights[k] * m * Eigen::Vector4d(positions[3 * v], positions[3 * v + 1], positions[3 * v + 2], 1);
         total += weights[k];
       }
-      out.push_back(sum.head<3>() / total);
+      out.emplace_back(sum.head<3>() / total);
     }
   }
 
