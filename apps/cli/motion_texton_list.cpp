@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "commands.h"
-#include "motex/motion_texture/instance_walk.h"
+#include "motex/motion_texture/liveliness.h"
 #include "motex/project/model_file.h"
 #include "motion_texton.h"
 #include "text_table.h"
@@ -17,7 +17,7 @@ constexpr std::size_t kMostNext = 3;
 struct TextonRow {
   int number = 0;
   double secs = 0;                    ///< of all its examples
-  double speed = 0;                   ///< mean, cm/s of body movement
+  double speed = 0;                   ///< mean of joints, cm/s
   bool is_danced = false;             ///< the endless dance plays it
   std::vector<TransitionCount> next;  ///< likeliest first
 };
@@ -31,11 +31,13 @@ std::vector<TextonRow> describe(const MotionTexture& model) {
     std::stable_sort(rows[i].next.begin(), rows[i].next.end(),
                      [](const auto& a, const auto& b) { return a.count > b.count; });
   }
-  for (const Instance& x : model.instances) {
+  const std::vector<double> speeds = mean_speeds(model);
+  for (std::size_t k = 0; k < speeds.size(); ++k) {
+    const Instance& x = model.instances[k];
     TextonRow& row = rows[static_cast<std::size_t>(x.texton)];
     const double secs = static_cast<double>(x.length) * model.frame_time_secs();
     row.secs += secs;
-    row.speed += secs * mean_speed(model, x) / model.frame_time_secs();
+    row.speed += secs * speeds[k] / model.frame_time_secs();
   }
   for (TextonRow& row : rows)
     if (row.secs > 0) row.speed /= row.secs;

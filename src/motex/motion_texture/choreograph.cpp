@@ -15,9 +15,9 @@
 namespace motex {
 namespace {
 
-constexpr double kFar = 2;            // usual jump distances
-constexpr double kDull = 0.1;         // deviations of liveliness, against the mean of the examples
-constexpr double kLeastWorth = 0.25;  // of a second of liveliness, in transitions: the first that is tried
+constexpr double kFar = 2;           // usual jump distances
+constexpr double kDull = 0.04;       // of the mean speed of the examples
+constexpr double kLeastWorth = 0.6;  // of a second of liveliness, in transitions: the first that is tried
 constexpr int kLivelySteps = 6;
 constexpr double kSliding = 3;                 // bending the way of the root against transitions
 constexpr double kSlides = 1.5;                // a root that goes so much farther than its examples lets feet slide

@@ -25,7 +25,7 @@ struct PlanRequest {
   double stretch = 0.15;
   double nearness = 1;
   std::uint64_t variation = 0;  ///< not 0: another way; every example costs up to some transitions more, by this seed
-  double liveliness = 0;        ///< what a second of an example costs less, times its z (liveliness.h)
+  double liveliness = 0;        ///< what a second of an example costs less, times its u (liveliness.h)
 };
 
 /// An example and how it is played: between which poses, in how many frames.

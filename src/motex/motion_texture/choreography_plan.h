@@ -26,7 +26,7 @@ class ChoreographyPlanner {
  public:
   explicit ChoreographyPlanner(const MotionTexture& model);
   Plan plan(const PlanRequest& request, const JobContext& job = {}) const;
-  /// Mean z (liveliness.h) of what a plan plays, by frames.
+  /// Mean u (liveliness.h) of what a plan plays, by frames.
   double mean_liveliness(const Plan& plan) const;
 
  private:

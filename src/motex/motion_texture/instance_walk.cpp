@@ -8,6 +8,7 @@
 
 #include "motex/core/error.h"
 #include "motex/motion_texture/jumps.h"
+#include "motex/motion_texture/liveliness.h"
 #include "motex/motion_texture/model_edits.h"
 
 namespace motex {
@@ -18,18 +19,10 @@ constexpr double kCuriosity = 6, kSteeredCuriosity = 2;
 constexpr double kFarthest = 1.25;  // τ
 constexpr std::size_t kMostFollowers = 24;
 constexpr double kMostRatio = 20;  // of a step's frequency as edited to that as learned
-constexpr double kBalanceSecs = 20, kMostBalance = 3;
+constexpr double kMostBalanceSecs = 10, kBalanceNow = 0.3, kBalanceAhead = 0.2;  // the latter a second
 constexpr int kSweeps = 2;  // of the look-ahead, each time an instance was chosen; values are kept between
 
 }  // namespace
-
-double mean_speed(const MotionTexture& model, const Instance& x) {
-  const auto y = model.corpus.middleRows(x.row, x.length);
-  const auto body = (y.bottomRows(x.length - 1) - y.topRows(x.length - 1)).rightCols(y.cols() - 4);
-  const double step = model.features.cm_per_unit / model.features.weights[0];
-  return static_cast<double>(body.rowwise().norm().mean()) +
-         step * static_cast<double>(y.leftCols(2).rowwise().norm().mean());
-}
 
 InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path,
                            bool endless)
@@ -40,7 +33,6 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
       rng_(Rng(options.seed).fork(1)),
       tau_(options.nearness * usual_jump_distance(model)),
       texton_allowed_(model.textons.size(), false),
-      liveliness_(model.instances.size(), 0),
       freshness_(model.instances.size(), 1),
       value_(model.instances.size(), 1) {
   for (const int texton : path_) check_playable(model, texton);
@@ -53,7 +45,7 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
   }
   for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) followers_.push_back(followers_of(i));
   lead_into_every_instance();
-  find_liveliness();
+  liveliness_ = liveliness(model, allowed_);
 }
 
 /// An instance that starts a clip follows nothing, and may lie near no end: the nearest possible end is made to lead
@@ -132,25 +124,13 @@ std::vector<InstanceWalk::Follower> InstanceWalk::followers_of(int instance) con
   return out;
 }
 
-void InstanceWalk::find_liveliness() {
-  const auto frames = [&](const Instance& x) { return static_cast<double>(x.length); };
-  double count = 0, sum = 0, squares = 0;
-  for (const int i : allowed_) {
-    const Instance& x = model_.instances[static_cast<std::size_t>(i)];
-    const double speed = mean_speed(model_, x);
-    liveliness_[static_cast<std::size_t>(i)] = speed;
-    count += frames(x), sum += frames(x) * speed, squares += frames(x) * speed * speed;
-  }
-  const double mean = sum / count, deviation = std::sqrt(std::max(1e-12, squares / count - mean * mean));
-  for (double& z : liveliness_) z = (z - mean) / deviation;
-}
-
 void InstanceWalk::look_ahead() {
   for (int sweep = 0; sweep < kSweeps; ++sweep)
     for (std::size_t b = value_.size(); b-- > 0;) {
       double best = 0;
       for (const Follower& c : followers_[b]) best = std::max(best, value_[static_cast<std::size_t>(c.instance)]);
-      value_[b] = std::max(freshness_[b], kPatience * best);
+      const double own = freshness_[b] * std::exp(-kBalanceAhead * balance_ * liveliness_[b]);
+      value_[b] = std::max(own, kPatience * best);
     }
 }
 
@@ -165,7 +145,8 @@ int InstanceWalk::choose_endless(const Taste& taste) {
     weights.push_back(
         b.weight *
         std::pow(value_[static_cast<std::size_t>(b.instance)] / freshest, taste ? kSteeredCuriosity : kCuriosity) *
-        std::exp(-balance_ * liveliness_[static_cast<std::size_t>(b.instance)]) * (taste ? taste(b.instance) : 1));
+        std::exp(-kBalanceNow * balance_ * liveliness_[static_cast<std::size_t>(b.instance)]) *
+        (taste ? taste(b.instance) : 1));
   return followers[rng_.weighted(weights)].instance;
 }
 
@@ -189,8 +170,8 @@ int InstanceWalk::next(const Taste& taste) {
     return -1;
   const double secs =
       static_cast<double>(model_.instances[static_cast<std::size_t>(current_)].length) * model_.frame_time_secs();
-  balance_ = std::clamp(balance_ + liveliness_[static_cast<std::size_t>(current_)] * secs / kBalanceSecs, -kMostBalance,
-                        kMostBalance);
+  balance_ = std::clamp(balance_ + liveliness_[static_cast<std::size_t>(current_)] * secs, -kMostBalanceSecs,
+                        kMostBalanceSecs);
   double& fresh = freshness_[static_cast<std::size_t>(current_)];
   fresh *= fading(before_.current, current_);
   if (fresh < 1e-9)  // long ago counts less: what was played more than 30 times oftener than others starts anew

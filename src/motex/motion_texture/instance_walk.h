@@ -10,21 +10,19 @@
 
 namespace motex {
 
-/// Mean movement of an example in cm a frame: of the body in its heading frame, and of its root over the floor.
-double mean_speed(const MotionTexture& model, const Instance& instance);
-
 /// Random walk over the instances of a model [MT02 5.1]: from instance a (texton i) to b (texton j) with
 ///
-///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−β z_b),   V(b) = max(½^(times b was played), 0.65 max_c V(c)) over
-///   followers c of b
+///   p(b) ∝ M_ij · exp(−δ(a, b)/τ) · V(b)⁶ · exp(−0.3 β u_b)
+///   V(b) = max(½^(times b was played) · exp(−0.2 β u_b), 0.65 max_c V(c)) over followers c of b
 ///
 /// δ(a, b): distance from where a ends to the key poses of b; τ = nearness × its median over nearest strangers.
 /// Followers farther than 1.25 τ are left out where nearer ones exist; but the nearest of a texton that edits prefer
 /// stays. V draws the dance towards what it has not shown lately, so that it neither goes in circles nor forgets a
-/// corner of the examples. z_b: how much livelier b is than the mean example, in deviations; β: the sum of z over what
-/// was played, in units of twenty seconds, at most ± 3. It keeps the dance as lively as its source. Where edits make
-/// the step from texton i to j r times as frequent as learned, coming to b that way counts as 1/r times played: V does
-/// not work against them.
+/// corner of the examples. u_b: how much faster b is than the examples' mean, as a share of it (liveliness.h); β: the
+/// sum of u · seconds over what was played, at most ± 10: seconds of mean movement that the dance is ahead of its
+/// source. It keeps the mean speed over time; in V it also leads out of stretches that hold calm (or lively) instances
+/// alone. Where edits make the step from texton i to j r times as frequent as learned, coming to b that way counts as
+/// 1/r times played: V does not work against them; and the mean is that of the edited dance.
 class InstanceWalk {
  public:
   InstanceWalk(const MotionTexture& model, const SynthesizeOptions& options, std::vector<int> path, bool endless);
@@ -49,7 +47,6 @@ class InstanceWalk {
   int choose_endless(const Taste& taste);
   int choose_of_texton(int texton);
   void look_ahead();
-  void find_liveliness();
   void lead_into_every_instance();
   double distance(int from, int to) const;
   double preference(int from, int to) const;  ///< M against that without the edits' weights
@@ -72,8 +69,8 @@ class InstanceWalk {
   std::vector<int> allowed_;  ///< instances of the largest connected part
   std::vector<bool> texton_allowed_;
   std::vector<std::vector<Follower>> followers_;  ///< by instance
-  std::vector<double> liveliness_;                ///< z
-  double balance_ = 0;                            ///< β
+  std::vector<double> liveliness_;                ///< u
+  double balance_ = 0;                            ///< β, s
   std::vector<double> freshness_, value_;         ///< ½^(times played), V
 };
 

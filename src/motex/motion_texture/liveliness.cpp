@@ -4,33 +4,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace motex {
 namespace {
 
-double mean_speed(const MotionTexture& model, const Instance& x) {
-  if (x.length < 2) return 0;
-  const auto y = model.corpus.middleRows(x.row, x.length);
-  const auto body = (y.bottomRows(x.length - 1) - y.topRows(x.length - 1)).rightCols(y.cols() - 4);
-  const double step = model.features.cm_per_unit / model.features.weights[0];
-  return static_cast<double>(body.rowwise().norm().mean()) +
-         step * static_cast<double>(y.leftCols(2).rowwise().norm().mean());
+constexpr double kSampleSecs = 0.1;
+
+/// Sum over joints and end sites of the way from row − 1 to row, units.
+double way_of_joints(const MotionTexture& model, Index row, Clip& pair) {
+  RootPlace place;
+  for (Index k = 0; k < 2; ++k) {
+    const Vector features = model.corpus.row(row - 1 + k).cast<double>();
+    decode_frame(model.features, features.data(), k == 0, place, pair, k);
+  }
+  const FrameMatrix positions = world_positions(pair);
+  double sum = 0;
+  for (Index j = 0; j + 3 <= positions.cols(); j += 3)
+    sum += (positions.block<1, 3>(1, j) - positions.block<1, 3>(0, j)).norm();
+  return sum;
 }
 
 }  // namespace
 
-std::vector<double> liveliness(const MotionTexture& model) {
+std::vector<double> mean_speeds(const MotionTexture& model) {
+  const auto stride = std::max<Index>(1, std::lround(kSampleSecs / model.frame_time_secs()));
+  const Skeleton& skeleton = model.features.skeleton;
+  const auto joints = static_cast<double>(skeleton.joints.size() + skeleton.end_sites.size());
+  Clip pair = make_held_clip(model.features, 2);
   std::vector<double> out;
-  double count = 0, sum = 0, squares = 0;
   for (const Instance& x : model.instances) {
-    const auto frames = static_cast<double>(x.length);
-    const double speed = mean_speed(model, x);
-    out.push_back(speed);
-    count += frames, sum += frames * speed, squares += frames * speed * speed;
+    double sum = 0, count = 0;
+    for (Index t = 1; t < x.length; t += stride, ++count) sum += way_of_joints(model, x.row + t, pair);
+    out.push_back(count > 0 ? model.features.cm_per_unit * sum / (joints * count) : 0);
   }
-  const double mean = sum / count, deviation = std::sqrt(std::max(1e-12, squares / count - mean * mean));
-  for (double& z : out) z = (z - mean) / deviation;
   return out;
+}
+
+std::vector<double> liveliness(const MotionTexture& model, const std::vector<int>& among) {
+  std::vector<double> out = mean_speeds(model);
+  double sum = 0, weights = 0;
+  for (const int i : among) {
+    const Instance& x = model.instances[static_cast<std::size_t>(i)];
+    const double visits = model.visit_ratios.empty() ? 1 : model.visit_ratios[static_cast<std::size_t>(x.texton)];
+    const double weight = visits * static_cast<double>(x.length);
+    sum += weight * out[static_cast<std::size_t>(i)], weights += weight;
+  }
+  for (double& u : out) u = sum > 0 ? u * weights / sum - 1 : 0;
+  return out;
+}
+
+std::vector<double> liveliness(const MotionTexture& model) {
+  std::vector<int> all(model.instances.size());
+  std::iota(all.begin(), all.end(), 0);
+  return liveliness(model, all);
 }
 
 }  // namespace motex

@@ -13,7 +13,7 @@
 #include "motex/motion/foot_fix.h"
 #include "motex/motion/retime.h"
 #include "motex/motion_texture/choreography_plan.h"
-#include "motex/motion_texture/instance_walk.h"
+#include "motex/motion_texture/liveliness.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/placing.h"
 
@@ -60,27 +60,13 @@ RootStep natural_step(const MotionTexture& model, const Plan& plan) {
   return root_step(model.features, {}, place);
 }
 
-double usual_speed(const MotionTexture& model) {
-  double sum = 0, frames = 0;
-  for (const Instance& instance : model.instances) {
-    sum += mean_speed(model, instance) * static_cast<double>(instance.length);
-    frames += static_cast<double>(instance.length);
-  }
-  return sum / frames;
-}
-
 /// Of a plan: how far its way must be bent, and how much less or more than usual it moves.
-double loop_cost(const MotionTexture& model, const Plan& plan, const RootStep& step, double usual) {
+double loop_cost(const MotionTexture& model, const Plan& plan, const RootStep& step,
+                 const ChoreographyPlanner& planner) {
   const RootStep leads = natural_step(model, plan);
   const double way = std::hypot(leads[0] - step[0], leads[1] - step[1]) / kFarCm;
   const double turn = std::remainder(leads[2] - step[2], 2 * std::numbers::pi) / kFarTurn;
-  double movement = 0, frames = 0;
-  for (const PlannedSegment& s : plan.segments) {
-    const auto length = static_cast<double>(s.piece.length);
-    movement += mean_speed(model, model.instances[static_cast<std::size_t>(s.instance)]) * length;
-    frames += length;
-  }
-  const double lively = frames > 0 ? std::log(std::max(1e-6, movement / frames) / usual) : 0;
+  const double lively = std::log(std::max(1e-6, 1 + planner.mean_liveliness(plan)));
   return plan.cost + way * way + turn * turn + kLiveliness * lively * lively;
 }
 
@@ -88,7 +74,6 @@ double loop_cost(const MotionTexture& model, const Plan& plan, const RootStep& s
 Index cheapest_start(const MotionTexture& model, Index num_frames, const RootStep& step,
                      const ChoreographyOptions& options, const JobContext& job) {
   const ChoreographyPlanner planner(model);
-  const double usual = usual_speed(model);
   double least = std::numeric_limits<double>::infinity();
   Index best = -1;
   std::string refusal;
@@ -100,7 +85,7 @@ Index cheapest_start(const MotionTexture& model, Index num_frames, const RootSte
     request.stretch = options.stretch;
     request.nearness = options.nearness;
     try {
-      const double cost = loop_cost(model, planner.plan(request, job), step, usual);
+      const double cost = loop_cost(model, planner.plan(request, job), step, planner);
       if (cost < least) least = cost, best = rows[k];
     } catch (const InvalidInput& error) {
       if (refusal.empty()) refusal = error.what();
