@@ -60,7 +60,7 @@ Clip side_by_side(std::span<const Clip> clips, double margin) {
       low = std::min(low, positions.col(j).minCoeff());
       high = std::max(high, positions.col(j).maxCoeff());
     }
-    append(clips[k], "d" + std::to_string(k + 1) + "_", edge - low, out);
+    append(clips[k], "d" + std::to_string(k + 1) + ":", edge - low, out);
     edge += high - low + margin;
   }
   return out;

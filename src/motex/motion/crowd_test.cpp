@@ -22,7 +22,7 @@ TEST(Crowd, BodiesMoveAsBeforeAndKeepApart) {
   const Clip both = side_by_side(std::vector<Clip>{one, two}, 50);
   check_clip(both);
   EXPECT_EQ(both.num_frames(), 90);
-  EXPECT_GE(both.skeleton.find("d2_Hips"), one.skeleton.num_joints());
+  EXPECT_GE(both.skeleton.find("d2:Hips"), one.skeleton.num_joints());
   const int n = one.skeleton.num_joints();
   const FrameMatrix all = world_positions(both);
   const FrameMatrix first = all.leftCols(3 * n), second = all.middleCols(3 * n, 3 * n);

@@ -41,6 +41,12 @@ int ancestor(const Skeleton& skeleton, int idx, int generations) {
   return idx;
 }
 
+/// More than one where several bodies are shown: they are drawn as bones alone.
+std::ptrdiff_t num_roots(const Skeleton& skeleton) {
+  return std::count_if(skeleton.joints.begin(), skeleton.joints.end(),
+                       [](const Joint& joint) { return joint.parent_idx < 0; });
+}
+
 std::vector<Side> sides_of(const Skeleton& skeleton) {
   std::vector<Side> sides;
   for (const Joint& joint : skeleton.joints) {
@@ -213,7 +219,7 @@ Figure make_figure(const Skeleton& skeleton) {
   figure.height = 1.7 / metres_per_unit_or_guess(skeleton);
   figure.num_points = skeleton.num_joints() + static_cast<Index>(skeleton.end_sites.size());
   const std::vector<Side> sides = sides_of(skeleton);
-  find_limbs(skeleton, sides, figure);
+  if (num_roots(skeleton) == 1) find_limbs(skeleton, sides, figure);
   find_head_centre(skeleton, figure);
   if (has_trunk(figure)) add_trunk(skeleton, figure);
   add_bones(skeleton, sides, figure);

@@ -54,7 +54,7 @@ struct Row {
 Row row_of(const MotionTexture& model, int texton) {
   Row row{texton, {}, {}, 0};
   const std::vector<int>& instances = model.textons[static_cast<std::size_t>(texton)].instances;
-  for (std::size_t k = 0; k < std::min<std::size_t>(instances.size(), kAuditColumns); ++k) {
+  for (std::size_t k = 0; k < std::min(instances.size(), kAuditSegments); ++k) {
     const Instance& instance = model.instances[static_cast<std::size_t>(instances[k])];
     row.strips.push_back(strip_of(model, instance));
     row.places.push_back(place_of(model, instance));
@@ -90,11 +90,13 @@ Drawing texton_audit(const MotionTexture& model, int page) {
     const std::string name = texton.name.empty() ? "texton " + std::to_string(row.texton) : texton.name;
     out.add(Text{{8, y + 0.5 * row.height}, name, 13, {0, 0, 0, 255}, Align::kLeft, true});
     out.add(Text{{8, y + 0.5 * row.height + 16},
-                 std::to_string(texton.instances.size()) + (texton.instances.size() == 1 ? " segment" : " segments"),
+                 std::to_string(texton.instances.size()) + (texton.instances.size() == 1 ? " segment" : " segments") +
+                     (texton.instances.size() > kAuditSegments ? ", the first " + std::to_string(kAuditSegments) : ""),
                  11,
                  {90, 90, 90, 255}});
     for (std::size_t k = 0; k < row.strips.size(); ++k) {
-      const double x = kLabelWidth + static_cast<double>(k) * (column + kGap);
+      if (k > 0 && k % kAuditColumns == 0) y += row.height + kCaption + kGap;
+      const double x = kLabelWidth + static_cast<double>(k % kAuditColumns) * (column + kGap);
       append(out, row.strips[k], {x, y});
       out.add(Text{{x + 0.5 * row.strips[k].width, y + row.height + kCaption},
                    row.places[k],

@@ -8,12 +8,13 @@
 namespace motex {
 
 /// Do textons recur? A row a texton, its segments side by side, each as stick figures over its first T_min: a row
-/// should show one move. Textons by falling number of segments, kAuditRows a page, pages from 0; of a texton the first
-/// kAuditColumns segments in the order of the corpus. Throws InvalidInput for a page beyond the last.
+/// should show one move. Textons by falling number of segments, kAuditRows a page, pages from 0; segments in the order
+/// of the corpus, kAuditColumns a line, at most kAuditSegments. Throws InvalidInput for a page beyond the last.
 Drawing texton_audit(const MotionTexture& model, int page = 0);
 int num_audit_pages(const MotionTexture& model);
 
 constexpr int kAuditRows = 10;
-constexpr int kAuditColumns = 6;
+constexpr int kAuditColumns = 8;
+constexpr std::size_t kAuditSegments = 160;
 
 }  // namespace motex

@@ -6,9 +6,10 @@
 
 /** Looks at `target` from `distance` metres; yaw 0 stands on the +Z side, pitch > 0 above. */
 class Camera {
-  /** @param {number} yaw */
-  constructor(yaw) {
+  /** @param {number} yaw @param {number} distance metres */
+  constructor(yaw, distance = 3.6) {
     this.home = yaw;
+    this.homeDistance = distance;
     this.width = this.height = 1;
     this.reset();
   }
@@ -16,7 +17,7 @@ class Camera {
   reset() {
     this.yaw = this.home;
     this.pitch = 0.2;
-    this.distance = 3.6;
+    this.distance = this.homeDistance;
     /** @type {Vec3} */
     this.target = [0, 0.88, 0];
     /** @type {Vec3} moved away from the target by hand */

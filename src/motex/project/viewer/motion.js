@@ -90,6 +90,17 @@ class Motion {
     return [at(0), 0.88, at(1)];
   }
 
+  /** @returns {number} metres from where a following camera looks to the farthest point of the first frame */
+  radius() {
+    const [x, , z] = this.followed(0);
+    let most = 0;
+    for (let p = 0; p < this.data.numPoints; ++p) {
+      const r = Math.hypot(this.coordinate(0, p, 0) - x, this.coordinate(0, p, 2) - z);
+      if (r > most) most = r;
+    }
+    return most;
+  }
+
   /** @param {number} frame @returns {Span | undefined} */
   spanAt(frame) {
     return this.data.spans.find((s) => frame >= s.start && frame < s.start + s.length);

@@ -13,7 +13,7 @@ class Viewer {
   constructor(data) {
     this.data = data;
     this.motion = new Motion(data);
-    this.camera = new Camera(data.frontYaw + 0.45);
+    this.camera = new Camera(data.frontYaw + 0.45, Math.max(3.6, 2.4 * this.motion.radius()));
     this.scene = new Scene(element('view'), this.motion, this.camera);
     this.timeline = new Timeline(this.motion, (frame) => this.seek(frame));
     this.time = 0;
