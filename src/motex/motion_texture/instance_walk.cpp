@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "motex/core/error.h"
+#include "motex/markov/graph.h"
 #include "motex/motion_texture/jumps.h"
 #include "motex/motion_texture/liveliness.h"
 #include "motex/motion_texture/model_edits.h"
@@ -44,30 +45,45 @@ InstanceWalk::InstanceWalk(const MotionTexture& model, const SynthesizeOptions& 
     if (texton_allowed_[static_cast<std::size_t>(texton)]) allowed_.push_back(i);
   }
   for (int i = 0; i < static_cast<int>(model.instances.size()); ++i) followers_.push_back(followers_of(i));
-  lead_into_every_instance();
+  lead_into_every_part();
   liveliness_ = liveliness(model, allowed_);
 }
 
-/// An instance that starts a clip follows nothing, and may lie near no end: the nearest possible end is made to lead
-/// there.
-void InstanceWalk::lead_into_every_instance() {
-  std::vector<bool> is_reached(model_.instances.size(), false);
-  for (const int a : allowed_)
-    for (const Follower& b : followers_[static_cast<std::size_t>(a)])
-      if (b.instance != a) is_reached[static_cast<std::size_t>(b.instance)] = true;
-  for (const int b : allowed_) {
-    if (is_reached[static_cast<std::size_t>(b)]) continue;
-    double best = std::numeric_limits<double>::infinity();
-    int nearest = -1;
-    for (const int a : allowed_) {
-      if (a == b || transition(a, b) <= 0) continue;
-      const double d = distance(a, b);
-      if (d < best) best = d, nearest = a;
-    }
-    if (nearest < 0) continue;
-    auto& list = followers_[static_cast<std::size_t>(nearest)];
-    list.push_back({b, transition(nearest, b) * std::exp(-kFarthest)});
+/// What starts a clip may follow nothing, and may lie near no end; so may a part that leads to itself alone. The
+/// nearest possible end is made to lead there, until there is a way from every instance to every other.
+void InstanceWalk::lead_into_every_part() {
+  for (bool is_led = true; is_led;) {
+    is_led = false;
+    Graph graph(static_cast<int>(followers_.size()));
+    for (const int a : allowed_)
+      for (const Follower& b : followers_[static_cast<std::size_t>(a)]) graph.add_edge(a, b.instance);
+    const Components parts = strongly_connected_components(graph);
+    const auto part_of = [&](int i) {
+      return static_cast<std::size_t>(parts.component_of[static_cast<std::size_t>(i)]);
+    };
+    std::vector<bool> is_entered(parts.members.size(), false);
+    for (const int a : allowed_)
+      for (const Follower& b : followers_[static_cast<std::size_t>(a)])
+        if (part_of(b.instance) != part_of(a)) is_entered[part_of(b.instance)] = true;
+    for (std::size_t k = 0; k < parts.members.size(); ++k)
+      if (!is_entered[k] && lead_into(parts.members[k])) is_led = true;
   }
+}
+
+bool InstanceWalk::lead_into(const std::vector<int>& part) {
+  double best = std::numeric_limits<double>::infinity();
+  int from = -1, to = -1;
+  for (const int b : part) {
+    if (!std::binary_search(allowed_.begin(), allowed_.end(), b)) return false;
+    for (const int a : allowed_) {
+      if (transition(a, b) <= 0 || std::binary_search(part.begin(), part.end(), a)) continue;
+      const double d = distance(a, b);
+      if (d < best) best = d, from = a, to = b;
+    }
+  }
+  if (from < 0) return false;
+  followers_[static_cast<std::size_t>(from)].push_back({to, transition(from, to) * std::exp(-kFarthest)});
+  return true;
 }
 
 double InstanceWalk::transition(int from, int to) const {

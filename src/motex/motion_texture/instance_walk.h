@@ -47,7 +47,8 @@ class InstanceWalk {
   int choose_endless(const Taste& taste);
   int choose_of_texton(int texton);
   void look_ahead();
-  void lead_into_every_instance();
+  void lead_into_every_part();
+  bool lead_into(const std::vector<int>& part);
   double distance(int from, int to) const;
   double preference(int from, int to) const;  ///< M against that without the edits' weights
   double fading(int from, int to) const;      ///< of the freshness of `to` when it is played

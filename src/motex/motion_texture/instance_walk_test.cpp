@@ -82,6 +82,25 @@ TEST(InstanceWalk, FollowsTransitionsThatExist) {
   }
 }
 
+/// Also where a few begin near one another and far from all the rest.
+TEST(InstanceWalk, LeadsFromEveryInstanceToEveryOther) {
+  MotionTexture model = walking_model();
+  ASSERT_GE(model.instances.size(), 6U);
+  model.textons.resize(1);
+  model.textons[0].instances.clear();
+  for (std::size_t k = 0; k < model.instances.size(); ++k) {
+    model.instances[k].texton = 0;
+    model.textons[0].instances.push_back(static_cast<int>(k));
+  }
+  model.transitions = TransitionMatrix(1, 1);
+  model.corpus.topRows(model.instances[2].row + 2).rightCols(9).array() += 300;
+  const auto followers = InstanceWalk(model, {}, {}, true).followers();
+  Graph graph(static_cast<int>(followers.size()));
+  for (std::size_t a = 0; a < followers.size(); ++a)
+    for (const int b : followers[a]) graph.add_edge(static_cast<int>(a), b);
+  EXPECT_EQ(strongly_connected_components(graph).members.size(), 1U);
+}
+
 TEST(InstanceWalk, GoesOnForEver) {
   const MotionTexture model = walking_model();
   InstanceWalk walk(model, {}, {}, true);
