@@ -67,7 +67,7 @@ TEST(ModelEdits, WhatCannotBe) {
   MotionTexture model = learned_model();
   const int count = static_cast<int>(model.textons.size());
   ASSERT_GE(count, 4);
-  const auto refused = [&](ModelEdit edit) {
+  const auto refused = [&](const ModelEdit& edit) {
     const auto before = model.edits;
     EXPECT_THROW(add_edit(model, edit), InvalidInput) << static_cast<int>(edit.kind);
     EXPECT_EQ(model.edits, before) << "a refused edit is not kept";
