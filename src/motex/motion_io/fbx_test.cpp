@@ -191,6 +191,14 @@ std::string binary_with_array(std::uint32_t count, std::uint32_t encoding, std::
   return out + std::string(13, '\0');
 }
 
+TEST_F(FbxRead, NodesThatHangFromOneAnotherDoNotEndTheProgram) {
+  std::string text = FbxText().text();
+  const std::string last = "\tC: \"OO\",102,101\n";
+  ASSERT_NE(text.find(last), text.npos);
+  text.insert(text.find(last), "\tC: \"OO\",101,102\n");
+  EXPECT_THROW(read_fbx_bytes(text, "ring.fbx"), InvalidInput);
+}
+
 TEST(CheckFbxRecords, RefusesArraysThatTheirBytesCannotHold) {
   EXPECT_NO_THROW(check_fbx_records(binary_with_array(2, 0, 16), "x.fbx"));
   EXPECT_THROW(check_fbx_records(binary_with_array(3, 0, 16), "x.fbx"), ParseError);
