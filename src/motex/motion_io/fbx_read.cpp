@@ -7,17 +7,14 @@
 
 #include <assimp/config.h>
 #include <assimp/scene.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cerrno>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "motex/core/child_process.h"
 #include "motex/motion/up_axis.h"
 #include "motex/motion_io/gltf_document.h"
 #include "motex/motion_io/text_scanner.h"
@@ -30,7 +27,7 @@ constexpr double kSparse = 1.5;         // frames from key to key, at the file's
 constexpr double kSameScale = 1e-3;     // of a scale that moves
 constexpr int kScaleNotInherited = 2;   // FBX inherit type Rrs
 constexpr double kLargestNumber = 1e9;  // of lengths and seconds
-constexpr rlim_t kMostSecs = 60;        // of processor time in Assimp
+constexpr int kMostSecs = 60;           // of processor time in Assimp
 
 Vector3 vector_of(const aiVector3D& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
@@ -225,23 +222,11 @@ const aiScene* import(Assimp::Importer& importer, std::string_view bytes, const 
 /// Assimp overflows its stack and runs without end on some broken files. It reads each file in a child process first;
 /// only what the child survives is read here.
 void try_in_child(std::string_view bytes, const std::string& name) {
-  const pid_t child = fork();
-  if (child == 0) {
-    const rlimit secs{kMostSecs, kMostSecs}, no_core{0, 0};
-    setrlimit(RLIMIT_CPU, &secs);
-    setrlimit(RLIMIT_CORE, &no_core);
-    close(STDERR_FILENO);
-    try {
-      Assimp::Importer importer;
-      import(importer, bytes, name);
-    } catch (...) {  // the parent meets it too, and says it
-    }
-    _exit(0);
-  }
-  int status = 0;
-  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (status != 0)
+  const auto read = [&] {
+    Assimp::Importer importer;
+    import(importer, bytes, name);
+  };
+  if (!survives_in_child(read, kMostSecs))
     throw InvalidInput(name + ": libassimp, which reads FBX here, fails on this file; save the motion as BVH or GLB");
 }
 
