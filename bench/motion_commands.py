@@ -11,23 +11,14 @@ import os
 import resource
 import statistics
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-MOTEX = os.environ.get("MOTEX", str(ROOT / "build/release/motex"))
+from command_under_test import MOTEX, data_folder
+
 FRAMES = 10000
 REPEATS = 7
-
-
-def data_folder():
-    named = (sys.argv[1:] or [os.environ.get("MOTEX_BENCH_DATA", "")])[0]
-    if named:
-        return Path(named)
-    shared = ROOT.parent / "shared/data/mocap"
-    return shared if shared.is_dir() else ROOT / "tests/data/mocap"
 
 
 def timed(*command):

@@ -12,22 +12,13 @@ import json
 import math
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-MOTEX = os.environ.get("MOTEX", str(ROOT / "build/release/motex"))
+from command_under_test import MOTEX, data_folder
+
 SECS = int(os.environ.get("SECS", "1200"))
 MOST_STEPS = int(os.environ.get("STEPS", "10"))  # the commonest ones are weighed
-
-
-def data_folder():
-    named = (sys.argv[1:] or [os.environ.get("MOTEX_BENCH_DATA", "")])[0]
-    if named:
-        return Path(named)
-    shared = ROOT.parent / "shared/data/mocap"
-    return shared if shared.is_dir() else ROOT / "tests/data/mocap"
 
 
 def motex(*words):

@@ -76,6 +76,16 @@ void check_adapt(const AdaptClipOptions& options, const std::vector<std::string>
   }
 }
 
+Argument& declare_clip_outputs(Arguments& arguments, std::vector<std::string>& outputs) {
+  return arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs);
+}
+
+void check_clip_outputs(const std::vector<std::string>& outputs, const AdaptClipOptions& options,
+                        const Session& session) {
+  check_outputs(outputs, clip_output_extensions(), session);
+  check_adapt(options, outputs);
+}
+
 void write_clip_outputs(const std::vector<std::string>& outputs, Clip clip, ClipPicture picture,
                         const AdaptClipOptions& options, Session& session) {
   const double frame_time_secs = clip.frame_time_secs;

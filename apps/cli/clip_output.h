@@ -33,6 +33,12 @@ void write_clip_output(const std::string& path, const Clip& clip, const ClipPict
 void declare_adapt(Arguments& arguments, AdaptClipOptions& options);
 /// To be called before long work: throws InvalidInput where a format cannot take an option.
 void check_adapt(const AdaptClipOptions& options, const std::vector<std::string>& outputs);
+
+/// -o OUT of commands that write a clip; the caller says whether it is required.
+Argument& declare_clip_outputs(Arguments& arguments, std::vector<std::string>& outputs);
+/// check_outputs() for the formats of clips, then check_adapt().
+void check_clip_outputs(const std::vector<std::string>& outputs, const AdaptClipOptions& options,
+                        const Session& session);
 /// Adapts the clip and writes it to each path. Pages and pictures keep y up.
 void write_clip_outputs(const std::vector<std::string>& outputs, Clip clip, ClipPicture picture,
                         const AdaptClipOptions& options, Session& session);

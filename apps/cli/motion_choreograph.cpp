@@ -91,8 +91,7 @@ struct Choreograph {
     arguments.value("--start", "CLIP@FRAME", "the first two frames are this one and the next", start).required = true;
     arguments.value("--end", "CLIP@FRAME", "the last two frames are the one before and this", end).required = true;
     arguments.value("--frames", "N", "length in frames", frames).required = true;
-    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs)
-        .required = true;
+    declare_clip_outputs(arguments, outputs).required = true;
     arguments.value("--via", "CLIP@FRAME:N", "output frames N and N+1 are this one and the next; may be given again",
                     via);
     arguments.value("--place", "X,Z,HEADING",
@@ -110,8 +109,7 @@ struct Choreograph {
 
   void run(Session& session) {
     const ChoreographyRequest request = parse_request();
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     if (session.flags.dry_run) {
       corpus_row(model, request.start);

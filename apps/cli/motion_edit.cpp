@@ -95,8 +95,7 @@ struct Edit {
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
     example.declare(arguments);
-    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs)
-        .required = true;
+    declare_clip_outputs(arguments, outputs).required = true;
     arguments.section("Edits; frames count from the texton's first, each flag may be given again");
     arguments.value("--turn", "FRAME:JOINT=X,Y,Z",
                     "turn the joint by so many degrees about its parent's axes (the axis is X,Y,Z, the angle its "
@@ -120,8 +119,7 @@ struct Edit {
     const std::vector<EditText> set_edits = parsed("--set", set), turn_edits = parsed("--turn", turn);
     if (set.empty() && turn.empty() && raise.empty() && pose.empty())
       throw InvalidInput("nothing to edit: give --turn, --set, --raise or --pose");
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     std::vector<PoseEdit> edits;
@@ -132,11 +130,7 @@ struct Edit {
     EditReport report;
     const Clip clip = edit_texton(model, instance, edits, options, report, session.job(0.1, 0.9));
     if (session.flags.dry_run) return would_write(outputs, -1, session);
-    ClipPicture picture;
-    picture.title = described(source_of(model, instance)) + ", edited";
-    picture.spans = {{model.instances[static_cast<std::size_t>(instance)].texton, 0, clip.num_frames(),
-                      described(source_of(model, instance))}};
-    write_clip_outputs(outputs, clip, picture, adapt, session);
+    write_clip_outputs(outputs, clip, example_picture(model, instance, "edited", clip.num_frames()), adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 std::to_string(edits.size()) + (edits.size() == 1 ? " edit" : " edits") + ", seed " +
                 std::to_string(options.seed));

@@ -46,8 +46,7 @@ struct Inbetween {
   void run(Session& session) {
     const ClipFrame first = parse_clip_frame("--from", from), last = parse_clip_frame("--to", to);
     if (frames < 1 || frames > 1'000'000) throw InvalidInput("--frames: a gap has 1 to 1000000 frames");
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     const Clip before = clip_beside(model, first, Beside::kUpTo, read, session);
     const Clip after = clip_beside(model, last, Beside::kFrom, read, session);

@@ -106,8 +106,10 @@ struct Info {
 
   void run(Session& session) {
     if (!audit.empty()) check_output(audit, {".png", ".svg"}, session);
-    if (is_motion_file(model_path) && !audit.empty()) throw InvalidInput("--audit shows textons; name a model");
-    if (is_motion_file(model_path)) return report_motion_file(model_path, list_parts, session);
+    if (is_motion_file(model_path)) {
+      if (!audit.empty()) throw InvalidInput("--audit shows textons; name a model");
+      return report_motion_file(model_path, list_parts, session);
+    }
     const MotionTexture model = load_model(model_path);
     if (!audit.empty()) draw_audit(model, session);
     const auto summaries = summarise(model);

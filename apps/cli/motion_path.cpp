@@ -59,8 +59,7 @@ struct FindPath {
   }
 
   void run(Session& session) {
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     const TextonPaths paths =
         find_texton_paths(model, texton_number(model, "--from", from), texton_number(model, "--to", to), num_textons);

@@ -10,7 +10,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "motex/motion_texture/model_edits.h"
+#include "motex/motion_io/csv_text.h"
 #include "motex/project/model_file.h"
 #include "options_value.h"
 #include "steer_input.h"
@@ -31,7 +31,7 @@ class FrameLines {
     if (csv_) {
       std::string line = "frame,time,texton,root.x,root.y,root.z";
       for (const Joint& joint : space.skeleton.joints)
-        for (const char* part : {".w", ".x", ".y", ".z"}) line += "," + quoted(joint.name + part);
+        for (const char* part : {".w", ".x", ".y", ".z"}) line += "," + csv_cell(joint.name + part);
       return line + "\n";
     }
     Value joints = Value(Value::List{}), object;
@@ -73,13 +73,6 @@ class FrameLines {
   }
 
  private:
-  static std::string quoted(const std::string& name) {
-    if (name.find_first_of(",\"\n") == name.npos) return name;
-    std::string out = "\"";
-    for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
-    return out + '"';
-  }
-
   const MotionTexture& model_;
   bool csv_;
 };

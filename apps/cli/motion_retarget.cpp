@@ -46,7 +46,7 @@ struct Retarget {
 
   void declare(Arguments& arguments) {
     arguments.positional("CLIP", "motion to move to another body", clip_path);
-    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs);
+    declare_clip_outputs(arguments, outputs);
     arguments.value("--to", "FILE", "clip whose skeleton is the new body", body_path).required = true;
     arguments.section("Which joint is which");
     arguments.value("--map", "FILE", "pairs of joints: .csv with target,source lines, or .json", map_path);

@@ -25,8 +25,7 @@ struct Stretch {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
     example.declare(arguments);
     arguments.value("--frames", "N", "length in frames", frames).required = true;
-    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs)
-        .required = true;
+    declare_clip_outputs(arguments, outputs).required = true;
     arguments.section("How");
     arguments.options(options);
     declare_adapt(arguments, adapt);
@@ -34,8 +33,7 @@ struct Stretch {
 
   void run(Session& session) {
     example.check();
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     if (session.flags.dry_run) return would_write(outputs, frames, session);

@@ -23,8 +23,7 @@ struct Vary {
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex motion learn", model_path);
     example.declare(arguments);
-    arguments.value("-o,--output", "OUT", "motion, page or picture to write; may be given several times", outputs)
-        .required = true;
+    declare_clip_outputs(arguments, outputs).required = true;
     arguments.section("How");
     arguments.options(options);
     declare_adapt(arguments, adapt);
@@ -32,22 +31,18 @@ struct Vary {
 
   void run(Session& session) {
     example.check();
-    check_outputs(outputs, clip_output_extensions(), session);
-    check_adapt(adapt, outputs);
+    check_clip_outputs(outputs, adapt, session);
     const MotionTexture model = load_model(model_path);
     const int instance = example.choose(model);
     if (session.flags.dry_run) return would_write(outputs, -1, session);
     VaryReport report;
     const Clip clip = vary_texton(model, instance, options, report);
-    ClipPicture picture;
-    picture.title = described(source_of(model, instance)) + ", seed " + std::to_string(options.seed);
-    picture.spans = {{model.instances[static_cast<std::size_t>(instance)].texton, 0, clip.num_frames(),
-                      described(source_of(model, instance))}};
-    write_clip_outputs(outputs, clip, picture, adapt, session);
+    const std::string seed = "seed " + std::to_string(options.seed);
+    write_clip_outputs(outputs, clip, example_picture(model, instance, seed, clip.num_frames()), adapt, session);
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(clip.num_frames()) + " frames, " +
                 fixed(report.mean_distance, 1) + " cm from the example on average, " +
-                fixed(report.largest_distance, 1) + " cm at frame " + std::to_string(report.farthest_frame) +
-                ", seed " + std::to_string(options.seed));
+                fixed(report.largest_distance, 1) + " cm at frame " + std::to_string(report.farthest_frame) + ", " +
+                seed);
     session.result(report_value(model, instance, clip, report, session), "");
   }
 

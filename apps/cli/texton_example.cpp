@@ -34,6 +34,15 @@ std::string described(const InstanceSource& source) {
          std::to_string(source.start + source.length - 1);
 }
 
+ClipPicture example_picture(const MotionTexture& model, int instance, const std::string& what, Index num_frames) {
+  const std::string source = described(source_of(model, instance));
+  const int texton = model.instances[static_cast<std::size_t>(instance)].texton;
+  ClipPicture picture;
+  picture.title = source + ", " + what;
+  picture.spans = {{texton, 0, num_frames, source}};
+  return picture;
+}
+
 void describe_example(const MotionTexture& model, int instance, Value& object) {
   const InstanceSource source = source_of(model, instance);
   object["texton"] = model.instances[static_cast<std::size_t>(instance)].texton;

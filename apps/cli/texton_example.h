@@ -5,6 +5,7 @@
 #include <string>
 
 #include "arguments.h"
+#include "clip_output.h"
 #include "model_sources.h"
 
 namespace motex::cli {
@@ -24,6 +25,8 @@ class TextonExample {
 
 /// "cmu61_05.bvh, frames 120–246", for people.
 std::string described(const InstanceSource& source);
+/// One texton from the first frame to the last.
+ClipPicture example_picture(const MotionTexture& model, int instance, const std::string& what, Index num_frames);
 /// texton, instance, clip, start, length: for --json.
 void describe_example(const MotionTexture& model, int instance, Value& object);
 
