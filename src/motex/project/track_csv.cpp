@@ -148,4 +148,29 @@ std::vector<Track> parse_tracks_csv(std::string_view text, const std::string& na
   return TableReader(text, name).read();
 }
 
+void TrackCsv::append(std::int64_t track, const TrackPoint& point, std::string& text) {
+  const bool inside = point.x >= -0.5 && point.y >= -0.5 && point.x < width_ - 0.5 && point.y < height_ - 0.5;
+  if (!inside) return;
+  ++num_rows_;
+  std::array<char, 32> word{};
+  for (const std::int64_t whole : {track, point.frame}) {
+    text.append(word.data(), std::to_chars(word.data(), word.data() + word.size(), whole).ptr);
+    text += ',';
+  }
+  const std::array<double, 5> numbers{point.x, point.y, point.scale, point.angle, point.amplitude};
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const double rounded = std::round(numbers[k] * 1e4) / 1e4 + 0.0;  // no "-0"
+    text.append(word.data(), std::to_chars(word.data(), word.data() + word.size(), rounded).ptr);
+    text += k + 1 < numbers.size() ? ',' : '\n';
+  }
+}
+
+std::string tracks_csv(const std::vector<Track>& tracks, int width, int height) {
+  std::string text = TrackCsv::heading();
+  TrackCsv table(width, height);
+  for (const Track& track : tracks)
+    for (const TrackPoint& point : track.points) table.append(track.id, point, text);
+  return text;
+}
+
 }  // namespace motex

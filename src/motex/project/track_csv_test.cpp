@@ -39,5 +39,18 @@ TEST(TrackCsv, ColumnsInAnyOrder) {
   EXPECT_EQ(tracks[1].points[1].y, 2.5);
 }
 
+TEST(TrackCsv, WritesWhatItReadsAndOnlyWhatIsInThePicture) {
+  std::vector<Track> tracks(2);
+  tracks[0] = {3, {{0, 1.25, 2.5, 1.5, 0.1, 80}, {1, -0.6, 2, 1, 0, 80}, {2, 9.49, -0.5, 1, -0.00001, -20.125}}};
+  tracks[1] = {12, {{7, 9.5, 2, 1, 0, 80}, {8, 4, 5.5, 1, 0, 80}}};
+  const std::string text = tracks_csv(tracks, 10, 6);
+  EXPECT_EQ(text, "track,frame,x,y,scale,angle,amplitude\n3,0,1.25,2.5,1.5,0.1,80\n3,2,9.49,-0.5,1,0,-20.125\n");
+  const std::vector<Track> back = parse_tracks_csv(text, "t.csv");
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(back[0].points[1].amplitude, -20.125);
+  EXPECT_EQ(back[0].points[0].scale, 1.5);
+  EXPECT_EQ(tracks_csv({}, 10, 6), TrackCsv::heading());
+}
+
 }  // namespace
 }  // namespace motex
