@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "motex/core/job.h"
+#include "motex/core/options.h"
+#include "motex/particles/clip_frames.h"
+#include "motex/particles/textured_motion.h"
+
+namespace motex {
+
+struct LearnTexturedMotionOptions {
+  std::uint64_t seed = 1;
+  int rounds = 2;
+  BackgroundKind background = BackgroundKind::kAuto;
+  bool coils = true;
+
+  template <typename Self, typename Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"seed", "", "random numbers; the same seed gives the same model"}, self.seed, Range{0, 1.8e19});
+    visit(Field{"rounds", "", "times that cables are sampled and everything else is fitted to them"}, self.rounds,
+          Range{0, 50});
+    visit(Field{"background", "",
+                "what bases are added to: median over time, low (20 % quantile, for fire), smooth (the frame blurred, "
+                "for a moving camera), flat (one level, as in the paper); auto: median or smooth"},
+          self.background, Choices{{"auto", "median", "low", "smooth", "flat"}});
+    visit(Field{"coils", "", "the weaker bases around each core too"}, self.coils, Range{});
+  }
+};
+
+/// One reversible-jump move and how often it was taken.
+struct LearnMove {
+  std::string name;
+  std::int64_t proposed = 0, accepted = 0;
+};
+
+/// What one round came to.
+struct LearnRound {
+  double psnr = 0;           ///< of background + bases against the clip, dB (luma)
+  double noise = 0;          ///< grey levels
+  double log_posterior = 0;  ///< nats; of sampled rounds
+  int num_cables = 0;
+};
+
+struct LearnTexturedMotionReport {
+  double background_psnr = 0;      ///< of the background alone
+  std::vector<LearnRound> rounds;  ///< 0: linked detections
+  std::vector<LearnMove> moves;    ///< over all rounds
+  std::vector<double> log_posterior_trace;
+  double bases_per_frame = 0;
+};
+
+struct LearnedTexturedMotion {
+  TexturedMotion model;
+  LearnTexturedMotionReport report;
+};
+
+/// Learns a model Θ from a clip ([TM02] section 4): background, cores, cables; then rounds of sampling whole cables,
+/// regressing their dynamics and fitting the background again; coils and templates; birth and death maps.
+/// Memory: a few planes a frame. Throws InvalidInput (fewer than 3 frames, frames smaller than 8 pixels, nothing that
+/// moves), Cancelled.
+LearnedTexturedMotion learn_textured_motion(const ClipFrames& clip, const LearnTexturedMotionOptions& options = {},
+                                            const JobContext& job = {});
+
+}  // namespace motex
