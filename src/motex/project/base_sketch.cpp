@@ -21,6 +21,13 @@ double strength(const Base& base, int num_planes) {
   return sum / num_planes;
 }
 
+double usual_full_ink(const BaseMap& map) {
+  std::vector<double> sizes;
+  for (const Base& base : map.bases) sizes.push_back(std::abs(strength(base, map.num_planes)));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes.empty() ? 1 : std::max(1e-9, sizes[sizes.size() * 9 / 10]);
+}
+
 Polyline ring(Point centre, double radius, Rgba colour, double width) {
   Polyline line{{}, colour, width, 0};
   for (int k = 0; k <= kRingCorners; ++k) {
@@ -48,14 +55,11 @@ void add_edge(Drawing& drawing, Point centre, const Base& base, double size, dou
 
 }  // namespace
 
-Drawing base_sketch(const BaseMap& map, double magnification) {
+Drawing base_sketch(const BaseMap& map, double magnification, double full_ink) {
   Drawing drawing;
   drawing.width = map.width * magnification;
   drawing.height = map.height * magnification;
-  std::vector<double> sizes;
-  for (const Base& base : map.bases) sizes.push_back(std::abs(strength(base, map.num_planes)));
-  std::sort(sizes.begin(), sizes.end());
-  const double strong = sizes.empty() ? 1 : std::max(1e-9, sizes[sizes.size() * 9 / 10]);
+  const double strong = full_ink > 0 ? full_ink : usual_full_ink(map);
   for (auto base = map.bases.rbegin(); base != map.bases.rend(); ++base) {  // the first found on top
     const double amount = strength(*base, map.num_planes), size = base->scale * magnification;
     const double opacity = 0.25 + 0.75 * std::min(1.0, std::abs(amount) / strong);
