@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "motex/particles/textured_motion.h"
+
+namespace motex::cli {
+
+/// load_textured_motion() that says what to do when a video was named in place of a model.
+TexturedMotion load_particles_model(const std::string& path);
+
+/// Background + bases of the cables in that frame.
+Planes reconstructed_frame(const TexturedMotion& model, std::int64_t frame);
+
+/// The shortest decimal of value rounded to 1e-6.
+std::string short_number(double value);
+
+}  // namespace motex::cli
