@@ -35,6 +35,9 @@ Command motion_texton_weight();
 Command motion_texton_undo();
 Command particles_decompose();
 Command particles_score();
+Command particles_learn();
+Command particles_info();
+Command particles_tracks();
 Command doctor();
 
 }  // namespace motex::cli

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/learn.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motex/core/error.h"
+#include "motex/core/options_check.h"
+#include "motex/particles/clip_background.h"
+#include "motex/particles/coils.h"
+#include "motex/particles/fit_dynamics.h"
+#include "motex/particles/track_elements.h"
+
+namespace motex {
+namespace {
+
+void check_clip(const ClipFrames& clip) {
+  if (clip.num_frames() < 3)
+    throw InvalidInput("dynamics are learned from at least 3 frames; the clip has " +
+                       std::to_string(clip.num_frames()));
+  if (clip.width < 8 || clip.height < 8)
+    throw InvalidInput("the frames must be at least 8 × 8 pixels; they are " + std::to_string(clip.width) + " × " +
+                       std::to_string(clip.height));
+}
+
+/// The steps of [TM02] section 4 on one clip.
+class Learning {
+ public:
+  Learning(const ClipFrames& clip, const LearnTexturedMotionOptions& options, const JobContext& job)
+      : clip_(clip), options_(options), job_(job), background_(clip, options.background, part(0, 0.05)) {
+    learned_.report.background_psnr = psnr_of(background_.residuals());
+  }
+
+  LearnedTexturedMotion run() {
+    find_cables();
+    grow();
+    describe();
+    return std::move(learned_);
+  }
+
+ private:
+  /// What happens between those shares of the whole job.
+  JobContext part(double from, double to) const {
+    JobContext out = job_;
+    out.on_progress = [this, from, to](std::string_view stage, double fraction) {
+      job_.progress(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+    };
+    return out;
+  }
+
+  /// Initial cables: detections linked.
+  void find_cables() {
+    TrackElementsReport report;
+    model().cables = track_elements(clip_, luma(background_.still()), 0, {}, part(0.05, 0.4), &report);
+    model().flow = report.link.flow.flow;
+    if (model().cables.empty())
+      throw InvalidInput("nothing moves in the clip that stands out from its background as an element");
+    add_round(0);
+  }
+
+  /// Coils and colours along the cables.
+  void grow() {
+    GrowCoilsOptions grow_options;
+    if (!options_.coils) grow_options.max_coils = 0;
+    grow_coils(clip_, background_.still(), model().cables, grow_options, part(0.7, 0.9));
+    background_.refresh(clip_, model().cables, job_);
+  }
+
+  void describe() {
+    TexturedMotion& out = model();
+    out.width = clip_.width;
+    out.height = clip_.height;
+    out.num_planes = clip_.num_planes();
+    out.frames_per_sec = clip_.frames_per_sec;
+    out.num_frames = clip_.num_frames();
+    out.seed = options_.seed;
+    out.background = background_.still();
+    out.background_kind = background_.kind();
+  }
+
+  void add_round(double log_posterior) {
+    std::vector<Plane> left = background_.residuals();
+    subtract_cables(left, model().cables, job_.jobs);
+    model().noise = noise_of(left);
+    learned_.report.rounds.push_back(
+        {psnr_of(left), model().noise, log_posterior, static_cast<int>(model().cables.size())});
+  }
+
+  TexturedMotion& model() { return learned_.model; }
+
+  const ClipFrames& clip_;
+  const LearnTexturedMotionOptions& options_;
+  const JobContext& job_;
+  ClipBackground background_;
+  LearnedTexturedMotion learned_;
+};
+
+}  // namespace
+
+LearnedTexturedMotion learn_textured_motion(const ClipFrames& clip, const LearnTexturedMotionOptions& options,
+                                            const JobContext& job) {
+  check_options(options);
+  check_clip(clip);
+  return Learning(clip, options, job).run();
+}
+
+}  // namespace motex
