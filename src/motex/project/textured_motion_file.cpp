@@ -62,7 +62,7 @@ void read_clip(const ArchiveReader& in, TexturedMotion& model) {
 }
 
 void write_templates(ArchiveWriter& out, const TexturedMotion& model) {
-  TableWriter templates(15), poses(3), coils(16), transitions(4), dynamics(40);
+  TableWriter templates(15), poses(3), coils(16), transitions(4), dynamics(55);
   for (const MovetonTemplate& one : model.templates) {
     templates.row({static_cast<double>(one.poses.size()), one.share, one.pose_transitions.prior_count()});
     for (const Spread& spread : {one.log_scale, one.amplitude, one.angle, one.colour[0], one.colour[1], one.colour[2]})
@@ -83,7 +83,7 @@ void write_templates(ArchiveWriter& out, const TexturedMotion& model) {
   for (const MovetonDynamics& one : model.dynamics) {
     dynamics.row({});
     for (const CoordinateDynamics& z : {one.x, one.y, one.log_scale, one.angle, one.amplitude})
-      dynamics.append({z.a, z.b, z.c, z.d, z.a0, z.c0, z.d0, z.c_spread});
+      dynamics.append({z.a, z.b, z.c, z.d, z.a0, z.c0, z.d0, z.c_spread, z.c_slope, z.start_mean, z.start_deviation});
   }
   out.add("templates", templates.matrix());
   out.add("template_poses", poses.matrix());
@@ -125,14 +125,13 @@ void read_transitions(const ArchiveReader& in, TexturedMotion& model) {
 
 void read_templates(const ArchiveReader& in, TexturedMotion& model) {
   TableReader templates(in, "templates", 15), poses(in, "template_poses", 3), coils(in, "template_coils", 16),
-      dynamics(in, "dynamics", 40);
+      dynamics(in, "dynamics", 55);
   while (templates.next_row_if_any()) {
     MovetonTemplate& one = model.templates.emplace_back();
     const int num_poses = templates.take_count(10000);
     one.share = templates.take();
     one.pose_transitions = TransitionMatrix(num_poses, templates.take());
-    for (Spread* spread :
-         {&one.log_scale, &one.amplitude, &one.angle, &one.colour[0], &one.colour[1], &one.colour[2]})
+    for (Spread* spread : {&one.log_scale, &one.amplitude, &one.angle, &one.colour[0], &one.colour[1], &one.colour[2]})
       *spread = templates.take_spread();
     for (int left = num_poses; left > 0; --left) read_pose(in, poses, coils, one.poses.emplace_back());
     if (one.poses.empty()) in.fail("a template has no pose");
@@ -141,7 +140,9 @@ void read_templates(const ArchiveReader& in, TexturedMotion& model) {
   while (dynamics.next_row_if_any()) {
     MovetonDynamics& one = model.dynamics.emplace_back();
     for (CoordinateDynamics* z : {&one.x, &one.y, &one.log_scale, &one.angle, &one.amplitude})
-      for (double* field : {&z->a, &z->b, &z->c, &z->d, &z->a0, &z->c0, &z->d0, &z->c_spread}) *field = dynamics.take();
+      for (double* field : {&z->a, &z->b, &z->c, &z->d, &z->a0, &z->c0, &z->d0, &z->c_spread, &z->c_slope,
+                            &z->start_mean, &z->start_deviation})
+        *field = dynamics.take();
   }
   if (model.dynamics.size() != model.templates.size()) in.fail("there must be as many dynamics as templates");
 }
@@ -164,9 +165,9 @@ void write_cables(ArchiveWriter& out, const TexturedMotion& model) {
     }
   };
   for (const Cable& cable : model.cables) {
-    for (const std::int64_t number : {cable.first_frame, cable.num_frames(), std::int64_t{cable.species},
-                                      static_cast<std::int64_t>(cable.coils.size()),
-                                      static_cast<std::int64_t>(cable.poses.empty() ? 0 : 1)})
+    for (const std::int64_t number :
+         {cable.first_frame, cable.num_frames(), std::int64_t{cable.species},
+          static_cast<std::int64_t>(cable.coils.size()), static_cast<std::int64_t>(cable.poses.empty() ? 0 : 1)})
       cables.push_back(number);
     write(cable.core);
     for (const std::vector<Base>& coil : cable.coils) write(coil);

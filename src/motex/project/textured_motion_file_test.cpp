@@ -43,7 +43,7 @@ TexturedMotion make_model() {
   bird.poses[1].coils[0].coefficient[2] = {-0.4, 0.2};
   model.templates = {bird};
   model.dynamics.resize(1);
-  model.dynamics[0].y = {1.7, -0.7, 0.9, 0.25, 1, 3, 0.4, 0.05};
+  model.dynamics[0].y = {1.7, -0.7, 0.9, 0.25, 1, 3, 0.4, 0.05, 0, 3, 0.4};
   Cable plain;
   plain.core = {make_base(BaseKind::kGaussian, 1, 2), make_base(BaseKind::kGaussian, 2, 3)};
   Cable flapping;
