@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "motex/image/planes.h"
+
+namespace motex {
+
+/// A Gaussian spot A e^{−q/2}, q = (p − p₀)ᵀ P (p − p₀), P = e^{−E} / s² with E the symmetric traceless matrix
+/// (e₁ e₂; e₂ −e₁) and e = √(e₁² + e₂²): deviation s e^{e/2} along its axis (at angle ½ atan2(e₂, e₁)), s e^{−e/2}
+/// across.
+struct Blob {
+  double x = 0, y = 0;      ///< pixels
+  double log_scale = 0;     ///< ln s
+  double e1 = 0, e2 = 0;    ///< 0 = round
+  double amplitude = 0;     ///< A, grey levels
+  double place_spread = 0;  ///< deviation of x and y that the noise brings about in the joint fit, pixels
+  double amplitude_spread = 0;
+
+  double scale() const;
+  double aspect() const;  ///< e^e ≥ 1: length by breadth
+  double angle() const;   ///< of its long axis, radians in [0, π)
+};
+
+/// What is known of a blob before the picture is looked at: independent normal distributions of x, y, ln s, e₁, e₂, A.
+struct BlobPrior {
+  std::array<double, 6> mean{};
+  std::array<double, 6> precision{};  ///< 1 / variance; 0 = nothing is known
+};
+
+struct FitBlobsOptions {
+  double noise = 1;       ///< deviation of a pixel, grey levels
+  bool oriented = false;  ///< e₁, e₂ are fitted too
+  double min_scale = 0.6, max_scale = 10;
+};
+
+/// Fits blobs to an image together: clusters of near ones by Levenberg–Marquardt in all their parameters, one cluster
+/// after the other against what the rest leaves. Minimises Σ (image − Σ blobs)² / noise² + the priors.
+class BlobFitter {
+ public:
+  BlobFitter(const Plane& image, const FitBlobsOptions& options);
+
+  void add(const Blob& blob, const BlobPrior& prior = {});
+  void remove(std::size_t idx);
+  /// Fits every cluster with a member that is not settled (added, or next to one that moved).
+  void fit(int num_sweeps);
+
+  const std::vector<Blob>& blobs() const { return blobs_; }
+  const Plane& residual() const { return residual_; }  ///< image − Σ blobs
+  /// Mean of residual² within two deviations of the blob's centre; 0 when it lies outside the image.
+  double misfit(std::size_t idx) const;
+
+ private:
+  std::vector<std::vector<int>> clusters() const;
+  bool fit_cluster(const std::vector<int>& members);
+  void unsettle_near(const Blob& blob);
+  void paint(const Blob& blob, float sign);
+
+  FitBlobsOptions options_;
+  Plane residual_;
+  std::vector<Blob> blobs_;
+  std::vector<BlobPrior> priors_;
+  std::vector<char> is_settled_;
+};
+
+}  // namespace motex

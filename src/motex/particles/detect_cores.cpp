@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/detect_cores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "motex/core/error.h"
+#include "motex/particles/blob_peaks.h"
+#include "motex/particles/cable.h"
+
+namespace motex {
+namespace {
+
+constexpr int kRounds = 3;               // searches of what the spots found so far leave
+constexpr std::size_t kSampleFrames = 5;
+constexpr double kOneSigned = 0.8;       // share of the energy that makes a clip bright (or dark)
+constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest elements
+constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
+constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
+constexpr double kMinNoise = 0.5;
+constexpr double kWeakRatio = 0.2;       // of a stronger spot's peak there: a part of it
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Plane negated(Plane plane) {
+  for (float& value : plane.values) value = -value;
+  return plane;
+}
+
+/// Height of a spot twice as wide at (x, y): how far its neighbourhood reaches.
+double shadow(const Blob& blob, double x, double y) {
+  const double c = std::cos(blob.angle()), s = std::sin(blob.angle()), e = std::hypot(blob.e1, blob.e2) / 2;
+  const double dx = x - blob.x, dy = y - blob.y, along = dx * c + dy * s, across = dy * c - dx * s;
+  const double u = along / (2 * blob.scale() * std::exp(e)), v = across / (2 * blob.scale() * std::exp(-e));
+  return std::abs(blob.amplitude) * std::exp(-0.5 * (u * u + v * v));
+}
+
+double energy_root(const Blob& blob) {
+  return std::abs(blob.amplitude) * blob.scale() * std::sqrt(std::numbers::pi);
+}
+
+class Detector {
+ public:
+  Detector(const Plane& residual, double noise, const DetectOptions& options)
+      : noise_(noise), options_(options), fitter_(residual, fit_options(noise, options)) {}
+
+  std::vector<Blob> run() {
+    for (int round = 0; round < kRounds; ++round) {
+      if (!add_peaks(round)) break;
+      fitter_.fit(3);
+      while (remove_doubtful()) fitter_.fit(2);
+    }
+    return fitter_.blobs();
+  }
+
+ private:
+  static FitBlobsOptions fit_options(double noise, const DetectOptions& options) {
+    return {noise, options.shape == CoreShape::kOriented, 0.8 * options.min_scale, 1.25 * options.max_scale};
+  }
+
+  bool add_peaks(int round) {
+    const std::size_t num_before = fitter_.blobs().size();
+    const std::vector<BlobPeak> peaks =
+        find_blob_peaks(fitter_.residual(), round == 0 ? options_.max_scale : std::min(3.0, options_.max_scale),
+                        options_.min_significance * noise_, options_.sign == CoreSign::kBoth);
+    for (const BlobPeak& peak : peaks) {
+      if (is_shadowed(peak, num_before)) continue;
+      fitter_.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude, 0, 0});
+    }
+    return fitter_.blobs().size() > num_before;
+  }
+
+  /// Too near to another new one, or no more than a stronger spot's misfit.
+  bool is_shadowed(const BlobPeak& peak, std::size_t num_before) const {
+    const std::vector<Blob>& blobs = fitter_.blobs();
+    const double least = std::max(kWeakRatio, 3 * options_.shape_misfit);
+    for (std::size_t k = 0; k < blobs.size(); ++k) {
+      const double distance = std::hypot(blobs[k].x - peak.x, blobs[k].y - peak.y);
+      if (k >= num_before && distance < 0.8 * std::max(blobs[k].scale(), peak.scale)) return true;
+      if (k < num_before && std::abs(peak.amplitude) < least * shadow(blobs[k], peak.x, peak.y)) return true;
+    }
+    return false;
+  }
+
+  /// Takes away the least sure of the spots that the fit has shown not to be elements.
+  bool remove_doubtful() {
+    const std::vector<Blob>& blobs = fitter_.blobs();
+    std::vector<std::size_t> doubtful;
+    for (std::size_t k = 0; k < blobs.size(); ++k)
+      if (is_doubtful(k)) doubtful.push_back(k);
+    // Of two that overlap only the weaker goes now: the other may be sound without it.
+    std::vector<std::size_t> gone;
+    for (const std::size_t k : doubtful) {
+      bool is_weakest = true;
+      for (const std::size_t m : doubtful)
+        is_weakest = is_weakest && (m == k || std::hypot(blobs[k].x - blobs[m].x, blobs[k].y - blobs[m].y) >
+                                                  2 * (blobs[k].scale() + blobs[m].scale()) ||
+                                    std::make_pair(energy_root(blobs[k]), k) < std::make_pair(energy_root(blobs[m]), m));
+      if (is_weakest) gone.push_back(k);
+    }
+    for (auto k = gone.rbegin(); k != gone.rend(); ++k) fitter_.remove(*k);
+    return !gone.empty();
+  }
+
+  bool is_doubtful(std::size_t k) const {
+    const std::vector<Blob>& blobs = fitter_.blobs();
+    const Blob& blob = blobs[k];
+    if (options_.sign != CoreSign::kBoth && blob.amplitude <= 0) return true;
+    if (std::abs(blob.amplitude) < 0.7 * options_.min_significance * blob.amplitude_spread) return true;
+    if (blob.log_scale > std::log(1.2 * options_.max_scale)) return true;
+    if (energy_root(blob) < options_.min_significance * noise_ * 0.7) return true;
+    for (std::size_t m = 0; m < blobs.size(); ++m) {
+      if (m == k || energy_root(blobs[m]) < energy_root(blob)) continue;
+      const double distance = std::hypot(blob.x - blobs[m].x, blob.y - blobs[m].y);
+      if (distance > 6 * blobs[m].scale() * std::sqrt(blobs[m].aspect())) continue;
+      if (distance < 0.3 * std::min(blob.scale(), blobs[m].scale())) return true;
+      if (std::abs(blob.amplitude) <
+          std::max(kWeakRatio, 3 * options_.shape_misfit) * shadow(blobs[m], blob.x, blob.y))
+        return true;
+    }
+    return false;
+  }
+
+  double noise_;
+  DetectOptions options_;
+  BlobFitter fitter_;
+};
+
+std::vector<Plane> sample_of(const std::vector<Plane>& residuals) {
+  std::vector<Plane> sample;
+  const std::size_t num = std::min(kSampleFrames, residuals.size());
+  for (std::size_t k = 0; k < num; ++k) sample.push_back(residuals[(2 * k + 1) * residuals.size() / (2 * num)]);
+  return sample;
+}
+
+CoreSign decided_sign(const std::vector<Plane>& sample, double noise, const DetectOptions& options) {
+  double bright = 0, all = 0;
+  for (const Plane& residual : sample)
+    for (const BlobPeak& peak : find_blob_peaks(residual, options.max_scale, options.min_significance * noise, true)) {
+      const double energy = peak.response * peak.response;
+      all += energy;
+      if (peak.amplitude > 0) bright += energy;
+    }
+  if (bright >= kOneSigned * all) return CoreSign::kBright;
+  return bright <= (1 - kOneSigned) * all ? CoreSign::kDark : CoreSign::kBoth;
+}
+
+bool stands_alone(const std::vector<Blob>& blobs, std::size_t k) {
+  for (std::size_t m = 0; m < blobs.size(); ++m)
+    if (m != k && std::hypot(blobs[k].x - blobs[m].x, blobs[k].y - blobs[m].y) < 4 * (blobs[k].scale() + blobs[m].scale()))
+      return false;
+  return true;
+}
+
+/// The stronger half of the spots that stand alone, fitted as ellipses.
+std::vector<Blob> outstanding(const Plane& residual, double noise, const DetectOptions& options,
+                              std::vector<double>& misfits) {
+  const bool is_both = options.sign == CoreSign::kBoth;
+  const Plane image = options.sign == CoreSign::kDark ? negated(residual) : residual;
+  FitBlobsOptions fit{noise, true, 0.8 * options.min_scale, 1.25 * options.max_scale};
+  BlobFitter fitter(image, fit);
+  for (const BlobPeak& peak : find_blob_peaks(image, options.max_scale, 2 * options.min_significance * noise, is_both)) {
+    bool is_near = false;
+    for (const Blob& other : fitter.blobs())
+      is_near = is_near || std::hypot(other.x - peak.x, other.y - peak.y) < 2 * std::max(other.scale(), peak.scale);
+    if (!is_near && fitter.blobs().size() < 200)
+      fitter.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude, 0, 0});
+  }
+  fitter.fit(2);
+  std::vector<double> energies;
+  for (const Blob& blob : fitter.blobs()) energies.push_back(energy_root(blob));
+  const double least = median(energies);
+  std::vector<Blob> out;
+  for (std::size_t k = 0; k < fitter.blobs().size(); ++k) {
+    const Blob& blob = fitter.blobs()[k];
+    if (energy_root(blob) < least || !stands_alone(fitter.blobs(), k)) continue;
+    out.push_back(blob);
+    misfits.push_back(std::sqrt(std::max(0.0, fitter.misfit(k) - noise * noise)) / std::abs(blob.amplitude));
+  }
+  return out;
+}
+
+}  // namespace
+
+double noise_of(const std::vector<Plane>& residuals) {
+  if (residuals.empty()) throw InvalidInput("the noise of no frames cannot be measured");
+  std::vector<double> sizes;
+  std::size_t num = 0;
+  for (const Plane& plane : residuals) num += plane.values.size();
+  const std::size_t stride = std::max<std::size_t>(1, num / 400000) | 1;  // odd: not the columns of a picture alone
+  for (const Plane& plane : residuals)
+    for (std::size_t i = 0; i < plane.values.size(); i += stride)
+      sizes.push_back(std::abs(static_cast<double>(plane.values[i])));
+  return std::max(kMinNoise, 1.4826 * median(std::move(sizes)));
+}
+
+DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise) {
+  DetectOptions out = options;
+  const std::vector<Plane> sample = sample_of(residuals);
+  if (out.sign == CoreSign::kAuto) out.sign = decided_sign(sample, noise, options);
+  std::vector<double> aspects, misfits;
+  for (const Plane& residual : sample)
+    for (const Blob& blob : outstanding(residual, noise, out, misfits)) aspects.push_back(blob.aspect());
+  if (out.shape == CoreShape::kAuto)
+    out.shape = median(aspects) > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
+  out.shape_misfit = std::min(0.3, median(misfits));
+  return out;
+}
+
+std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options) {
+  const bool is_open = options.sign == CoreSign::kAuto || options.shape == CoreShape::kAuto;
+  const DetectOptions chosen = is_open ? decided(options, {residual}, noise) : options;
+  const bool is_dark = chosen.sign == CoreSign::kDark;
+  std::vector<Blob> blobs = Detector(is_dark ? negated(residual) : residual, noise, chosen).run();
+  if (is_dark)
+    for (Blob& blob : blobs) blob.amplitude = -blob.amplitude;
+  std::stable_sort(blobs.begin(), blobs.end(),
+                   [](const Blob& a, const Blob& b) { return energy_root(a) > energy_root(b); });
+  return blobs;
+}
+
+Base core_of(const Blob& blob) {
+  Base base{BaseKind::kGaussian, blob.x, blob.y, std::clamp(blob.scale(), 0.6, 10.0), 0, {}};
+  if (blob.aspect() >= kRoundAspect) {
+    base.kind = BaseKind::kGaborCos;
+    base.scale = std::clamp(blob.scale() / std::sqrt(blob.aspect()) / kBarBreadth, 0.6, 10.0);
+    base.angle = std::fmod(blob.angle() + std::numbers::pi / 2, std::numbers::pi);
+  }
+  base.coefficients[0] = static_cast<float>(coefficient_of_peak(base, blob.amplitude));
+  return base;
+}
+
+std::vector<Base> detect_cores(const Plane& residual, double noise, const DetectOptions& options) {
+  std::vector<Base> cores;
+  for (const Blob& blob : detect_blobs(residual, noise, options)) cores.push_back(core_of(blob));
+  return cores;
+}
+
+}  // namespace motex

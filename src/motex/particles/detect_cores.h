@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "motex/core/options.h"
+#include "motex/particles/base.h"
+#include "motex/particles/blob_fit.h"
+
+namespace motex {
+
+enum class CoreSign { kAuto, kBright, kDark, kBoth };
+enum class CoreShape { kAuto, kRound, kOriented };
+
+struct DetectOptions {
+  double min_significance = 7;
+  double min_scale = kMinScale;
+  double max_scale = kMaxScale;
+  CoreSign sign = CoreSign::kAuto;
+  CoreShape shape = CoreShape::kAuto;
+  /// Deviation of elements from the fitted shape relative to their peak; measured by decided().
+  double shape_misfit = 0;
+
+  template <typename Self, typename Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"min_significance", "deviations", "least response of an element, in deviations of that of the noise"},
+          self.min_significance, Range{1, 1000});
+    visit(Field{"min_scale", "pixels", "smallest scale of an element"}, self.min_scale, Range{0.5, 32});
+    visit(Field{"max_scale", "pixels", "largest scale of an element"}, self.max_scale, Range{0.5, 32});
+    visit(Field{"sign", "", "elements are brighter or darker than the background; auto: decided over the clip"},
+          self.sign, Choices{{"auto", "bright", "dark", "both"}});
+    visit(Field{"shape", "", "round elements, or oriented ones (streaks, birds); auto: decided over the clip"},
+          self.shape, Choices{{"auto", "round", "oriented"}});
+  }
+};
+
+/// Deviation of a pixel: 1.4826 × the median of |residual| over every plane (a fixed subset of its pixels), which a few
+/// elements do not disturb; at least 0.5 grey levels (rounding, compression). Throws InvalidInput without planes.
+double noise_of(const std::vector<Plane>& residuals);
+
+/// The options with sign and shape decided by the elements that stand out most in up to five of the frames, and
+/// shape_misfit measured on those that stand alone.
+DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise);
+
+/// Elements of one frame (residual = luma minus background) as Gaussian spots fitted jointly with their neighbours:
+/// 1. local maxima over place and scale of differences of Gaussians, above min_significance;
+/// 2. all fitted to the frame together; what they leave is searched again, so that of two that overlap both are
+///    found; a spot stays only while it explains more than the noise and the misfit of its stronger neighbours would.
+/// Strongest first. sign and shape of the options are decided on this frame when they are auto.
+std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options);
+
+/// The core base that stands for a spot: a Gaussian where it is nearly round, else the bar (Gcos, turned across its
+/// long axis) of its breadth. Coefficient of plane 0 by its amplitude.
+Base core_of(const Blob& blob);
+
+/// core_of() of each of detect_blobs().
+std::vector<Base> detect_cores(const Plane& residual, double noise, const DetectOptions& options);
+
+}  // namespace motex
