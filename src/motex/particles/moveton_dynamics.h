@@ -14,6 +14,10 @@ struct CoordinateDynamics {
   double a = 1, b = 0, c = 0, d = 1;
   double a0 = 1, c0 = 0, d0 = 1;
   double c_spread = 0;
+  /// A cable's c goes with its beginning, which is its first step (places) or first value (others): mean
+  /// c + c_slope (beginning − start_mean). draw_cable_constant() in fit_dynamics.h.
+  double c_slope = 0;
+  double start_mean = 0, start_deviation = 0;
 
   double persistence() const { return -b; }                            ///< φ, of places
   double mean_velocity() const { return b == -1 ? c0 : c / (1 + b); }  ///< of places, pixels a frame

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/birth_death.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "motex/core/error.h"
+#include "motex/core/options_check.h"
+#include "motex/particles/bursts.h"
+#include "motex/particles/parzen.h"
+
+namespace motex {
+namespace {
+
+constexpr int kVelocitySteps = 3;
+constexpr int kLongestGap = 5;            // frames
+constexpr double kChanceOfMeeting = 0.2;  // expected births by chance where a cable is carried on
+constexpr double kLargestAmplitudeRatio = 2.5;
+
+bool inside(double x, double y, int width, int height) {
+  return x >= -0.5 && y >= -0.5 && x < width - 0.5 && y < height - 0.5;
+}
+
+CableEnd end_of(const Cable& cable, std::int32_t idx, bool at_birth) {
+  const auto last = static_cast<int>(cable.core.size()) - 1;
+  const int steps = std::min(last, kVelocitySteps);
+  const auto base = [&](int k) -> const Base& { return cable.core[static_cast<std::size_t>(k)]; };
+  const Base& from = base(at_birth ? 0 : last - steps);
+  const Base& to = base(at_birth ? steps : last);
+  const Base& here = at_birth ? from : to;
+  CableEnd end;
+  end.x = here.x;
+  end.y = here.y;
+  if (steps > 0) {
+    end.vx = (to.x - from.x) / steps;
+    end.vy = (to.y - from.y) / steps;
+  }
+  end.frame = at_birth ? cable.first_frame : cable.end_frame() - 1;
+  end.cable = idx;
+  return end;
+}
+
+PointCounts counts_of(const std::vector<CableEnd>& ends, int width, int height) {
+  PointCounts counts(width, height);
+  for (const CableEnd& end : ends) counts.add(end.x, end.y);
+  return counts;
+}
+
+Plane scaled(Plane plane, double factor) {
+  for (float& value : plane.values) value = static_cast<float>(static_cast<double>(value) * factor);
+  return plane;
+}
+
+struct Meeting {
+  double distance = 0;
+  std::size_t death = 0, birth = 0;
+};
+
+/// Deaths whose cable, carried on, meets a birth.
+std::vector<Meeting> meetings(std::span<const Cable> cables, const BirthDeathMaps& maps, std::int64_t num_frames) {
+  const PointCounts counts = counts_of(maps.births, maps.width, maps.height);
+  const double bandwidth = std::max(2.0, choose_bandwidth({&counts}));
+  const Plane density = parzen_smooth(counts.counts(), bandwidth);
+  const double own = 1 / (2 * std::numbers::pi * bandwidth * bandwidth);
+  std::vector<Meeting> found;
+  std::vector<std::vector<std::size_t>> births_of(static_cast<std::size_t>(num_frames));
+  for (std::size_t b = 0; b < maps.births.size(); ++b)
+    births_of[static_cast<std::size_t>(maps.births[b].frame)].push_back(b);
+  for (std::size_t d = 0; d < maps.deaths.size(); ++d) {
+    const CableEnd& death = maps.deaths[d];
+    const double amplitude = peak_amplitude(cables[static_cast<std::size_t>(death.cable)].core.back());
+    for (std::int64_t gap = 1; gap <= kLongestGap && death.frame + gap < num_frames; ++gap) {
+      const double x = death.x + death.vx * static_cast<double>(gap), y = death.y + death.vy * static_cast<double>(gap);
+      if (!inside(x, y, maps.width, maps.height)) break;
+      const double radius = 2 + static_cast<double>(gap);
+      const double nearby = std::max(0.0, static_cast<double>(density.at(static_cast<int>(std::floor(x + 0.5)),
+                                                                         static_cast<int>(std::floor(y + 0.5)))) -
+                                              own);
+      const double chance = nearby / static_cast<double>(num_frames) * std::numbers::pi * radius * radius * kLongestGap;
+      if (chance > kChanceOfMeeting) continue;
+      for (const std::size_t b : births_of[static_cast<std::size_t>(death.frame + gap)]) {
+        const CableEnd& birth = maps.births[b];
+        const double distance = std::hypot(birth.x - x, birth.y - y);
+        const double other = peak_amplitude(cables[static_cast<std::size_t>(birth.cable)].core.front());
+        const double ratio = amplitude != 0 ? other / amplitude : 0;
+        if (distance < radius && birth.cable != death.cable && ratio < kLargestAmplitudeRatio &&
+            ratio > 1 / kLargestAmplitudeRatio)
+          found.push_back({distance / radius, d, b});
+      }
+    }
+  }
+  return found;
+}
+
+/// The nearest meetings first, each end once.
+void bridge_gaps(std::span<const Cable> cables, BirthDeathMaps& maps, std::int64_t num_frames) {
+  std::vector<Meeting> found = meetings(cables, maps, num_frames);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Meeting& a, const Meeting& b) { return a.distance < b.distance; });
+  std::vector<char> dead_taken(maps.deaths.size()), born_taken(maps.births.size());
+  for (const Meeting& meeting : found) {
+    if (dead_taken[meeting.death] != 0 || born_taken[meeting.birth] != 0) continue;
+    dead_taken[meeting.death] = born_taken[meeting.birth] = 1;
+  }
+  const auto keep = [](std::vector<CableEnd>& ends, const std::vector<char>& taken) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      if (taken[i] == 0) ends[kept++] = ends[i];
+    ends.resize(kept);
+  };
+  keep(maps.deaths, dead_taken);
+  keep(maps.births, born_taken);
+}
+
+void leave_bursts_out(BirthDeathMaps& maps, std::size_t num_cables) {
+  std::vector<char> in_burst(num_cables);
+  for (const Burst& burst : maps.bursts)
+    for (const int cable : burst.cables) in_burst[static_cast<std::size_t>(cable)] = 1;
+  std::erase_if(maps.births, [&](const CableEnd& end) { return in_burst[static_cast<std::size_t>(end.cable)] != 0; });
+}
+
+PointCounts occupied(std::span<const Cable> cables, const BirthDeathMaps& maps, std::int64_t num_frames) {
+  PointCounts counts(maps.width, maps.height);
+  for (const Cable& cable : cables) {
+    for (std::int64_t t = std::max<std::int64_t>(cable.first_frame, 0); t < std::min(cable.end_frame(), num_frames);
+         ++t)
+      if (inside(cable.at(t).x, cable.at(t).y, maps.width, maps.height)) counts.add(cable.at(t).x, cable.at(t).y);
+  }
+  return counts;
+}
+
+/// (D + κ h̄) / (O + κ) with both taken over the window's area.
+Plane hazard_of(const Plane& deaths, const Plane& elements, double bandwidth, double prior_deaths) {
+  double num_deaths = 0, num_elements = 0;
+  for (const float value : deaths.values) num_deaths += static_cast<double>(value);
+  for (const float value : elements.values) num_elements += static_cast<double>(value);
+  Plane hazard(deaths.width, deaths.height);
+  if (num_deaths <= 0 || num_elements <= 0) return hazard;
+  const double mean = std::min(1.0, num_deaths / num_elements), area = 4 * std::numbers::pi * bandwidth * bandwidth;
+  for (std::size_t i = 0; i < hazard.values.size(); ++i) {
+    const double d = area * static_cast<double>(deaths.values[i]), n = area * static_cast<double>(elements.values[i]);
+    hazard.values[i] = static_cast<float>(std::clamp((d + prior_deaths) / (n + prior_deaths / mean), 0.0, 1.0));
+  }
+  return hazard;
+}
+
+/// Frames after which a death could be seen.
+double frames_at_risk(std::int64_t num_frames) {
+  return static_cast<double>(std::max<std::int64_t>(1, num_frames - 1));
+}
+
+}  // namespace
+
+BirthDeathMaps estimate_maps(std::span<const Cable> cables, int width, int height, std::int64_t num_frames,
+                             const MapOptions& options) {
+  check_options(options);
+  if (width < 1 || height < 1 || num_frames < 1)
+    throw InvalidInput("birth and death maps need a picture of at least one pixel and one frame");
+  BirthDeathMaps maps;
+  maps.width = width;
+  maps.height = height;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    const Cable& cable = cables[i];
+    if (cable.core.empty()) continue;
+    const auto idx = static_cast<std::int32_t>(i);
+    if (cable.first_frame > 0 && cable.first_frame < num_frames) maps.births.push_back(end_of(cable, idx, true));
+    if (cable.end_frame() < num_frames && cable.end_frame() > 0) maps.deaths.push_back(end_of(cable, idx, false));
+  }
+  if (options.find_bursts) maps.bursts = find_bursts(cables);
+  leave_bursts_out(maps, cables.size());
+  if (options.bridge_gaps) bridge_gaps(cables, maps, num_frames);
+
+  const double seen = frames_at_risk(num_frames);
+  maps.births_per_frame = static_cast<double>(maps.births.size()) / seen;
+  maps.bursts_per_frame = static_cast<double>(maps.bursts.size()) / seen;
+  const PointCounts births = counts_of(maps.births, width, height), deaths = counts_of(maps.deaths, width, height);
+  const PointCounts elements = occupied(cables, maps, num_frames);
+  maps.bandwidth = options.bandwidth > 0 ? options.bandwidth : choose_bandwidth({&births, &deaths});
+  maps.source = scaled(parzen_smooth(births.counts(), maps.bandwidth), births.total() > 0 ? 1 / births.total() : 0);
+  maps.sink = scaled(parzen_smooth(deaths.counts(), maps.bandwidth), deaths.total() > 0 ? 1 / deaths.total() : 0);
+  maps.occupancy = scaled(parzen_smooth(elements.counts(), maps.bandwidth), 1 / static_cast<double>(num_frames));
+  maps.hazard =
+      hazard_of(scaled(maps.sink, deaths.total()), scaled(maps.occupancy, seen), maps.bandwidth, options.prior_deaths);
+  return maps;
+}
+
+Plane vanishing_hazard(const BirthDeathMaps& maps, std::int64_t num_frames, double prior_deaths) {
+  std::vector<CableEnd> vanished;
+  for (const CableEnd& death : maps.deaths)
+    if (inside(death.x + death.vx, death.y + death.vy, maps.width, maps.height)) vanished.push_back(death);
+  const PointCounts deaths = counts_of(vanished, maps.width, maps.height);
+  return hazard_of(parzen_smooth(deaths.counts(), maps.bandwidth), scaled(maps.occupancy, frames_at_risk(num_frames)),
+                   maps.bandwidth, prior_deaths);
+}
+
+}  // namespace motex
