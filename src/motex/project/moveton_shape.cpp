@@ -20,7 +20,7 @@ struct Box {
   double left = HUGE_VAL, top = HUGE_VAL, right = -HUGE_VAL, bottom = -HUGE_VAL;
 };
 
-Box box_of(const std::vector<Base>& bases) {
+Box box_of(std::span<const Base> bases) {
   Box box;
   for (const Base& base : bases) {
     const BaseReach reach = reach_of(base);
@@ -32,24 +32,26 @@ Box box_of(const std::vector<Base>& bases) {
   return box;
 }
 
-/// Σ α ψ with `step` pixels from sample to sample, first sample at the corner of the box.
-Plane sampled(const std::vector<Base>& bases, const Box& box, double step) {
+/// Largest |ψ|.
+double crest_of(BaseKind kind) {
+  if (kind == BaseKind::kLog) return 2;
+  if (kind == BaseKind::kGaborCos) return 1 - std::exp(-kGaborFrequency * kGaborFrequency / 2);
+  return kind == BaseKind::kGaborSin ? 0.59501 : 1;
+}
+
+/// Σ ±√|a| ψ with `step` pixels from sample to sample, first sample at the corner of the box.
+Plane sampled(std::span<const Base> bases, const Box& box, double step) {
   const int width = static_cast<int>((box.right - box.left) / step) + 1,
             height = static_cast<int>((box.bottom - box.top) / step) + 1;
   Plane sum(width, height);
   std::vector<float> values(sum.values.size());
   for (Base base : bases) {
-    // peak_amplitude is coefficient × crest / norm, and the crest of ψ is what evaluate() reaches.
-    const Base unit = base;
+    const double peak = peak_amplitude(base) / crest_of(base.kind);
+    const auto weight = static_cast<float>(std::copysign(std::sqrt(std::abs(peak)), peak));
     base.x = (base.x - box.left) / step;
     base.y = (base.y - box.top) / step;
     base.scale /= step;
     evaluate(base, 0, 0, width, height, values.data());
-    const double crest = base.kind == BaseKind::kLog        ? 2
-                         : base.kind == BaseKind::kGaborCos ? 1 - std::exp(-kGaborFrequency * kGaborFrequency / 2)
-                         : base.kind == BaseKind::kGaborSin ? 0.59501
-                                                            : 1;
-    const auto weight = static_cast<float>(peak_amplitude(unit) / crest);
     for (std::size_t i = 0; i < values.size(); ++i) sum.values[i] += weight * values[i];
   }
   return sum;
@@ -62,14 +64,7 @@ std::vector<Point> scaled_about(std::vector<Point> points, Point centre, double 
 
 }  // namespace
 
-std::vector<Base> bases_at(const Cable& cable, std::int64_t frame) {
-  std::vector<Base> bases{cable.at(frame)};
-  const auto idx = static_cast<std::size_t>(frame - cable.first_frame);
-  for (const std::vector<Base>& coil : cable.coils) bases.push_back(coil[idx]);
-  return bases;
-}
-
-std::vector<std::vector<Point>> shape_of_bases(const std::vector<Base>& bases, double share) {
+std::vector<std::vector<Point>> shape_of_bases(std::span<const Base> bases, double share) {
   if (bases.empty()) return {};
   const Box box = box_of(bases);
   double finest = HUGE_VAL;
@@ -132,24 +127,19 @@ std::vector<Point> leaf_outline(Point centre, double angle, double along, double
   return outline;
 }
 
-std::vector<std::vector<Point>> cartoon_outlines(const Cable& cable, std::int64_t frame, double size) {
-  const Base& core = cable.at(frame);
+std::vector<std::vector<Point>> cartoon_outlines(std::span<const Base> bases, double vx, double vy, double size) {
+  if (bases.empty()) return {};
+  const Base& core = bases[0];
   const Point centre{core.x + 0.5, core.y + 0.5};
-  if (!cable.coils.empty()) {
-    std::vector<std::vector<Point>> outlines = shape_of_bases(bases_at(cable, frame));
+  if (bases.size() > 1) {
+    std::vector<std::vector<Point>> outlines = shape_of_bases(bases);
     for (std::vector<Point>& outline : outlines) outline = scaled_about(std::move(outline), centre, size);
     return outlines;
   }
   const double scale = core.scale * size;
   if (core.kind == BaseKind::kGaborCos || core.kind == BaseKind::kGaborSin)
     return {leaf_outline(centre, core.angle, 2.6 * scale, 1.1 * scale)};
-  const Base& before = cable.at(std::max(cable.first_frame, frame - 1));
-  const Base& after = cable.at(std::min(cable.end_frame() - 1, frame + 1));
-  const double frames =
-      before.x == after.x && before.y == after.y
-          ? 1
-          : static_cast<double>(std::min(cable.end_frame() - 1, frame + 1) - std::max(cable.first_frame, frame - 1));
-  return {drop_outline(centre, 1.5 * scale, (after.x - before.x) / frames, (after.y - before.y) / frames)};
+  return {drop_outline(centre, 1.5 * scale, vx, vy)};
 }
 
 }  // namespace motex
