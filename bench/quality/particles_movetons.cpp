@@ -18,6 +18,7 @@
 #include "motex/particles/background.h"
 #include "motex/particles/coils.h"
 #include "motex/particles/refine.h"
+#include "motex/particles/templates.h"
 #include "motex/project/load_video_clip.h"
 #include "motex/project/track_csv.h"
 
@@ -52,7 +53,8 @@ std::vector<Cable> cables_of(const std::vector<Track>& tracks, const ClipFrames&
         ids.push_back(track.id);
       }
       last = point.frame;
-      Base core{BaseKind::kGaussian, point.x, point.y, point.scale > 0 ? std::clamp(point.scale, 0.8, 8.0) : 1.5, 0, {}};
+      Base core{
+          BaseKind::kGaussian, point.x, point.y, point.scale > 0 ? std::clamp(point.scale, 0.8, 8.0) : 1.5, 0, {}};
       const FittedBase fit = refine_base(residuals[static_cast<std::size_t>(point.frame)], core, 6);
       if (std::hypot(fit.base.x - core.x, fit.base.y - core.y) < core.scale) core = fit.base;
       core.coefficients[0] = fit.coefficient;
@@ -62,21 +64,116 @@ std::vector<Cable> cables_of(const std::vector<Track>& tracks, const ClipFrames&
   return out;
 }
 
+/// Column `state` of a table of tracks by (id, frame); empty without one.
+std::map<std::pair<std::int64_t, std::int64_t>, int> states_of(const std::string& text) {
+  std::map<std::pair<std::int64_t, std::int64_t>, int> out;
+  std::size_t begin = 0;
+  std::vector<std::string> heading;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::vector<std::string> cells(1);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (text[i] == ',')
+        cells.emplace_back();
+      else if (text[i] != '\r')
+        cells.back() += text[i];
+    }
+    begin = end + 1;
+    if (heading.empty()) {
+      heading = cells;
+      continue;
+    }
+    std::int64_t id = 0, frame = 0;
+    int state = -1;
+    for (std::size_t k = 0; k < std::min(heading.size(), cells.size()); ++k) {
+      if (heading[k] == "id" || heading[k] == "track") id = std::strtoll(cells[k].c_str(), nullptr, 10);
+      if (heading[k] == "frame") frame = std::strtoll(cells[k].c_str(), nullptr, 10);
+      if (heading[k] == "state") state = static_cast<int>(std::strtol(cells[k].c_str(), nullptr, 10));
+    }
+    if (state >= 0) out[{id, frame}] = state;
+  }
+  return out;
+}
+
+/// Poses of the largest species against true states: the best pairing of both, share of frames that agree, and the
+/// largest difference of the transition matrices.
+void compare_poses(const std::vector<Cable>& cables, const MovetonTemplate& found, const std::vector<std::int64_t>& ids,
+                   const std::string& text) {
+  const auto truth = states_of(text);
+  int num_states = 0;
+  for (const auto& [where, state] : truth) num_states = std::max(num_states, state + 1);
+  const auto num_poses = static_cast<int>(found.poses.size());
+  std::printf("    %d poses, %d true states", num_poses, num_states);
+  if (num_poses != num_states || num_states < 2) {
+    std::puts("");
+    return;
+  }
+  TransitionMatrix of_truth(num_states);
+  std::vector<std::vector<double>> together(static_cast<std::size_t>(num_poses),
+                                            std::vector<double>(static_cast<std::size_t>(num_states), 0));
+  double num = 0;
+  for (std::size_t c = 0; c < cables.size(); ++c)
+    for (std::size_t at = 0; at < cables[c].poses.size(); ++at) {
+      const auto here = truth.find({ids[c], cables[c].first_frame + static_cast<std::int64_t>(at)});
+      if (here == truth.end()) continue;
+      together[static_cast<std::size_t>(cables[c].poses[at])][static_cast<std::size_t>(here->second)] += 1;
+      num += 1;
+      const auto next = truth.find({ids[c], cables[c].first_frame + static_cast<std::int64_t>(at) + 1});
+      if (at + 1 < cables[c].poses.size() && next != truth.end()) of_truth.add_count(here->second, next->second);
+    }
+  std::vector<int> order(static_cast<std::size_t>(num_states)), best;
+  for (int k = 0; k < num_states; ++k) order[static_cast<std::size_t>(k)] = k;
+  double most = -1;
+  do {
+    double agree = 0;
+    for (std::size_t p = 0; p < order.size(); ++p) agree += together[p][static_cast<std::size_t>(order[p])];
+    if (agree > most) {
+      most = agree;
+      best = order;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  double worst = 0, transitions = 0;
+  for (int a = 0; a < num_states; ++a)
+    for (int b = 0; b < num_states; ++b) {
+      const int ta = best[static_cast<std::size_t>(a)], tb = best[static_cast<std::size_t>(b)];
+      worst = std::max(worst, std::abs(found.pose_transitions.probability(a, b) - of_truth.probability(ta, tb)));
+      transitions += of_truth.count(ta, tb);
+    }
+  std::printf("; %.1f %% of frames agree; largest error of a transition probability %.3f, from %.0f transitions\n",
+              100 * most / std::max(1.0, num), worst, transitions);
+}
+
 void measure(const std::filesystem::path& video, const std::filesystem::path& truth) {
   const ClipFrames clip = load_video_clip(video);
   const Planes background = background_of(clip);
   std::vector<std::int64_t> ids;
-  std::vector<Cable> cables = cables_of(parse_tracks_csv(read_file(truth), truth.string()), clip, background, ids);
+  const std::string text = read_file(truth);
+  std::vector<Cable> cables = cables_of(parse_tracks_csv(text, truth.string()), clip, background, ids);
   std::size_t elements = 0;
   for (const Cable& cable : cables) elements += cable.core.size();
   const double start = processor_secs();
   const GrowCoilsReport report = grow_coils(clip, background, cables);
   const double grown = processor_secs();
-  std::printf("%-24s %4zu cables, %5.1f a frame: PSNR background %.2f, cores %.2f, with coils %.2f dB; %.2f bases a "
-              "moveton; isolated %.0f %%; noise %.2f; coils %.2f s\n",
-              video.filename().string().c_str(), cables.size(),
-              static_cast<double>(elements) / clip.num_frames(), report.background_psnr, report.cores_psnr, report.psnr,
-              report.bases_per_moveton, 100 * report.isolated_share, report.noise, grown - start);
+  std::printf(
+      "%-24s %4zu cables, %5.1f a frame: PSNR background %.2f, cores %.2f, with coils %.2f dB; %.2f bases a "
+      "moveton; isolated %.0f %%; noise %.2f; coils %.2f s\n",
+      video.filename().string().c_str(), cables.size(), static_cast<double>(elements) / clip.num_frames(),
+      report.background_psnr, report.cores_psnr, report.psnr, report.bases_per_moveton, 100 * report.isolated_share,
+      report.noise, grown - start);
+  const double begin = processor_secs();
+  const std::vector<MovetonTemplate> templates = learn_templates(cables, clip.num_planes());
+  std::printf("    %zu species in %.2f s:", templates.size(), processor_secs() - begin);
+  for (const MovetonTemplate& one : templates) {
+    std::printf(" %.0f %%, poses of", 100 * one.share);
+    for (const TemplatePose& pose : one.poses) {
+      double coils = 0;
+      for (const TemplateCoil& coil : pose.coils) coils += coil.presence;
+      std::printf(" %.2f (%zu)", coils, pose.coils.size());
+    }
+    std::printf(" coils;");
+  }
+  std::puts("");
+  if (!templates.empty()) compare_poses(cables, templates[0], ids, text);
 }
 
 int run(int argc, char** argv) {

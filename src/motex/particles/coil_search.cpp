@@ -171,8 +171,8 @@ CoilFit carry_coil(const CoilWindow& window, const Base& core, const CoilFit& fr
   Base start = moved_with_core(from.base, from_core, core);
   start.scale = std::max(start.scale, kSmallestScale);
   const Base local = in_window(start, window);
-  const bool inside = local.x >= 0 && local.y >= 0 && local.x <= window.residual.width - 1 &&
-                      local.y <= window.residual.height - 1;
+  const bool inside =
+      local.x >= 0 && local.y >= 0 && local.x <= window.residual.width - 1 && local.y <= window.residual.height - 1;
   if (!inside) return {start, 0};
   CoilFit out = fitted(window, local, core, reach);
   if (out.coefficient == 0) out.base = start;

@@ -220,12 +220,13 @@ class CoilGrower {
     double sum = 0;
     for (int frame = 0; frame < clip_.num_frames(); ++frame)
       for (std::size_t k = 0; k < background_.size(); ++k)
-        for (const float value : target(frame, k).values) sum += static_cast<double>(value) * static_cast<double>(value);
+        for (const float value : target(frame, k).values)
+          sum += static_cast<double>(value) * static_cast<double>(value);
     return psnr_of(sum);
   }
   double psnr_of(double sum) const {
-    const double num = static_cast<double>(clip_.num_frames()) * static_cast<double>(background_.size()) *
-                       clip_.width * clip_.height;
+    const double num =
+        static_cast<double>(clip_.num_frames()) * static_cast<double>(background_.size()) * clip_.width * clip_.height;
     return 10 * std::log10(255.0 * 255.0 * num / sum);
   }
 

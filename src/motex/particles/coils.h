@@ -31,11 +31,11 @@ struct GrowCoilsOptions {
 /// How well cores and coils stand for the clip. PSNR over all frames and planes, dB.
 struct GrowCoilsReport {
   double background_psnr = 0;
-  double cores_psnr = 0;          ///< background and cores, coefficients fitted jointly
-  double psnr = 0;                ///< cores and coils
-  double bases_per_moveton = 0;   ///< core and coils, mean over elements and frames
-  double isolated_share = 0;      ///< of elements and frames: nothing else within reach
-  double noise = 0;               ///< deviation of a pixel from background and cores (median), grey levels
+  double cores_psnr = 0;         ///< background and cores, coefficients fitted jointly
+  double psnr = 0;               ///< cores and coils
+  double bases_per_moveton = 0;  ///< core and coils, mean over elements and frames
+  double isolated_share = 0;     ///< of elements and frames: nothing else within reach
+  double noise = 0;              ///< deviation of a pixel from background and cores (median), grey levels
 };
 
 /// [TM02] section 4, after the cores: weaker bases are found "quickly following the learned trajectory". One coil after

@@ -35,7 +35,8 @@ void add_base(BaseKind kind, double u, double v, double scale, double angle, dou
   evaluate(cell, left, top, width, height, values.data());
   const auto factor = static_cast<float>(weight / (analytic_norm(kind) * scale));
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) out[(top + y) * kPatchSide + left + x] += factor * values[static_cast<std::size_t>(y * width + x)];
+    for (int x = 0; x < width; ++x)
+      out[(top + y) * kPatchSide + left + x] += factor * values[static_cast<std::size_t>(y * width + x)];
 }
 
 }  // namespace
@@ -43,11 +44,14 @@ void add_base(BaseKind kind, double u, double v, double scale, double angle, dou
 double analytic_norm(BaseKind kind) {
   constexpr double kPi = std::numbers::pi, kSquare = kGaborFrequency * kGaborFrequency;
   switch (kind) {
-    case BaseKind::kLog: return std::sqrt(2 * kPi);
+    case BaseKind::kLog:
+      return std::sqrt(2 * kPi);
     case BaseKind::kGaborCos:
       return std::sqrt(2 * kPi * (0.5 * (1 + std::exp(-kSquare)) - 2 * std::exp(-0.75 * kSquare) + std::exp(-kSquare)));
-    case BaseKind::kGaborSin: return std::sqrt(2 * kPi * 0.5 * (1 - std::exp(-kSquare)));
-    case BaseKind::kGaussian: break;
+    case BaseKind::kGaborSin:
+      return std::sqrt(2 * kPi * 0.5 * (1 - std::exp(-kSquare)));
+    case BaseKind::kGaussian:
+      break;
   }
   return std::sqrt(kPi);
 }

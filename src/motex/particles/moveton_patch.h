@@ -20,9 +20,9 @@ constexpr std::size_t kPatchSize = static_cast<std::size_t>(kPatchSide) * kPatch
 /// A coil base relative to its core: as the fields of TemplateCoil.
 struct RelativeBase {
   BaseKind kind = BaseKind::kGaussian;
-  double u = 0, v = 0;       ///< along and across the core's axis, core scales
-  double log_scale = 0;      ///< ln(scale / core scale)
-  double angle = 0;          ///< minus the core's where that is oriented
+  double u = 0, v = 0;                  ///< along and across the core's axis, core scales
+  double log_scale = 0;                 ///< ln(scale / core scale)
+  double angle = 0;                     ///< minus the core's where that is oriented
   std::array<double, 3> coefficient{};  ///< of each plane, divided by the core's luma coefficient
 };
 
