@@ -13,6 +13,8 @@
 #include "motex/core/parallel.h"
 #include "motex/motion_io/clip_io.h"
 #include "motex/motion_io/markers_io.h"
+#include "motex/video_io/video_reader.h"
+#include "motex/video_io/video_writer.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -57,6 +59,10 @@ struct Doctor {
     object["reads"] = readable_clip_extensions();
     object["reads_markers"] = readable_marker_extensions();
     object["writes"] = clip_output_extensions();
+    object["reads_video"] = readable_video_extensions();
+    object["writes_video"] = writable_video_extensions();
+    object["missing_video_encoders"] = missing_video_encoders();
+    object["libav"] = libav_release();
     object["browser"] = browser.empty() ? Value() : Value(browser);
     session.result(object,
                    text_pairs({{"motex", MOTEX_VERSION},
@@ -68,6 +74,11 @@ struct Doctor {
                                {"reads", enumerate(readable_clip_extensions())},
                                {"markers", enumerate(readable_marker_extensions())},
                                {"writes", enumerate(clip_output_extensions())},
+                               {"reads video", enumerate(readable_video_extensions())},
+                               {"writes video", enumerate(writable_video_extensions())},
+                               {"libav", libav_release()},
+                               {"not here", missing_video_encoders().empty() ? "all video encoders are here"
+                                                                             : enumerate(missing_video_encoders())},
                                {"browser", browser.empty() ? "none found: pages open in any other" : browser}}));
   }
 };

@@ -16,16 +16,41 @@ namespace motex::cli {
 namespace {
 
 CommandTable make_table() {
+  // clang-format off: one a line
   return {
-      motion_learn(),         motion_info(),         motion_synthesize(),  motion_segment(),
-      motion_score(),         motion_path(),         motion_choreograph(), motion_inbetween(),
-      motion_stretch(),       motion_vary(),         motion_edit(),        motion_compare(),
-      motion_features(),      motion_view(),         motion_convert(),     motion_retarget(),
-      motion_play(),          motion_export(),       motion_mix(),         motion_texton_list(),
-      motion_texton_name(),   motion_texton_drop(),  motion_texton_keep(), motion_texton_merge(),
-      motion_texton_weight(), motion_texton_undo(),  particles_learn(),    particles_info(),
-      particles_tracks(),     particles_decompose(), particles_score(),    doctor(),
+      motion_learn(),
+      motion_info(),
+      motion_synthesize(),
+      motion_segment(),
+      motion_score(),
+      motion_path(),
+      motion_choreograph(),
+      motion_inbetween(),
+      motion_stretch(),
+      motion_vary(),
+      motion_edit(),
+      motion_compare(),
+      motion_features(),
+      motion_view(),
+      motion_convert(),
+      motion_retarget(),
+      motion_play(),
+      motion_export(),
+      motion_mix(),
+      motion_texton_list(),
+      motion_texton_name(),
+      motion_texton_drop(),
+      motion_texton_keep(),
+      motion_texton_merge(),
+      motion_texton_weight(),
+      motion_texton_undo(),
+      particles_info(),
+      particles_tracks(),
+      particles_decompose(),
+      particles_score(),
+      doctor(),
   };
+  // clang-format on
 }
 
 std::string joined(const std::vector<std::string>& words) {

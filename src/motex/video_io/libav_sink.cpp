@@ -19,6 +19,7 @@ extern "C" {
 #include "motex/core/files.h"
 #include "motex/video_io/frame_sink.h"
 #include "motex/video_io/libav_handles.h"
+#include "motex/video_io/video_writer.h"
 
 namespace motex {
 namespace {
@@ -255,5 +256,15 @@ std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, co
                                            const JobContext& job) {
   return std::make_unique<LibavSink>(path, shape, job);
 }
+
+std::vector<std::string> missing_video_encoders() {
+  std::vector<std::string> missing;
+  for (const Recipe& recipe : kRecipes)
+    if (avcodec_find_encoder_by_name(recipe.encoder) == nullptr)
+      missing.push_back(std::string(recipe.extension) + " (" + recipe.encoder + ")");
+  return missing;
+}
+
+std::string libav_release() { return av_version_info(); }
 
 }  // namespace motex

@@ -59,6 +59,10 @@ class VideoWriter {
 
 /// Extensions that VideoWriter knows: ".mp4", ….
 std::vector<std::string> writable_video_extensions();
+/// Those that the libav here cannot write, with the encoder that it lacks: ".mp4 (libx264)"; none in a usual one.
+std::vector<std::string> missing_video_encoders();
+/// Version of the libav that is linked, for `motex doctor`.
+std::string libav_release();
 /// Whether a file of that extension can keep alpha.
 bool keeps_alpha(const std::string& extension);
 
