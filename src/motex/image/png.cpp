@@ -38,20 +38,72 @@ void append_chunk(std::string& out, const char* type, const std::string& data) {
   append_u32(out, crc_of(body));
 }
 
-/// Rows, each with its filter byte: Up, which turns flat areas and vertical edges into zeros.
-std::string filtered_rows(const Image& image, bool opaque) {
-  std::string rows;
-  const std::size_t channels = opaque ? 3 : 4;
-  rows.reserve((static_cast<std::size_t>(image.width) * channels + 1) * static_cast<std::size_t>(image.height));
-  for (int y = 0; y < image.height; ++y) {
-    rows += static_cast<char>(kRowFilterUp);
-    for (int x = 0; x < image.width; ++x) {
-      const Rgba p = image.at(x, y), above = y > 0 ? image.at(x, y - 1) : Rgba{0, 0, 0, 0};
-      rows += static_cast<char>(p.r - above.r);
-      rows += static_cast<char>(p.g - above.g);
-      rows += static_cast<char>(p.b - above.b);
-      if (!opaque) rows += static_cast<char>(p.a - above.a);
+int paeth(int left, int up, int up_left) {
+  const int p = left + up - up_left;
+  const int to_left = std::abs(p - left), to_up = std::abs(p - up), to_up_left = std::abs(p - up_left);
+  if (to_left <= to_up && to_left <= to_up_left) return left;
+  return to_up <= to_up_left ? up : up_left;
+}
+
+/// Samples row by row without filter bytes: 1, 3 or 4 a pixel.
+std::string samples_of(const Image& image, std::size_t channels) {
+  std::string samples;
+  samples.reserve(image.pixels.size() * channels);
+  for (const Rgba& p : image.pixels) {
+    samples += static_cast<char>(p.r);
+    if (channels == 1) continue;
+    samples += static_cast<char>(p.g);
+    samples += static_cast<char>(p.b);
+    if (channels == 4) samples += static_cast<char>(p.a);
+  }
+  return samples;
+}
+
+void filter_row(int filter, std::size_t channels, std::string_view above, std::string_view row, std::string& out) {
+  out.resize(row.size());
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const int left = i < channels ? 0 : static_cast<unsigned char>(row[i - channels]);
+    const int up = static_cast<unsigned char>(above[i]);
+    const int up_left = i < channels ? 0 : static_cast<unsigned char>(above[i - channels]);
+    int prediction = 0;
+    if (filter == kRowFilterSub) prediction = left;
+    if (filter == kRowFilterUp) prediction = up;
+    if (filter == kRowFilterAverage) prediction = (left + up) / 2;
+    if (filter == kRowFilterPaeth) prediction = paeth(left, up, up_left);
+    out[i] = static_cast<char>(row[i] - prediction);
+  }
+}
+
+/// Sum of the distances from zero: the usual guess of how well a row will compress.
+std::int64_t roughness(std::string_view row) {
+  std::int64_t sum = 0;
+  for (const char c : row) sum += std::abs(static_cast<signed char>(c));
+  return sum;
+}
+
+/// Rows, each with its filter byte. Up where it is as good as any: it turns flat areas and vertical edges into zeros.
+std::string filtered_rows(const Image& image, std::size_t channels) {
+  const std::string samples = samples_of(image, channels);
+  const std::size_t stride = static_cast<std::size_t>(image.width) * channels;
+  std::string above(stride, '\0'), best, candidate, rows;
+  rows.reserve(samples.size() + static_cast<std::size_t>(image.height));
+  for (std::size_t at = 0; at < samples.size(); at += stride) {
+    const std::string_view row(samples.data() + at, stride);
+    filter_row(kRowFilterUp, channels, above, row, best);
+    int chosen = kRowFilterUp;
+    std::int64_t least = roughness(best);
+    for (const int filter : {kRowFilterSub, kRowFilterAverage, kRowFilterPaeth}) {
+      if (least == 0) break;
+      filter_row(filter, channels, above, row, candidate);
+      if (const std::int64_t rough = roughness(candidate); rough < least) {
+        least = rough;
+        chosen = filter;
+        best.swap(candidate);
+      }
     }
+    rows += static_cast<char>(chosen);
+    rows += best;
+    above.assign(row);
   }
   return rows;
 }
@@ -89,13 +141,6 @@ std::string joined_image_data(std::string_view bytes, const std::string& name) {
   throw ParseError(name, ParseError::Unit::kByte, static_cast<std::int64_t>(at), "the file is cut off");
 }
 
-int paeth(int left, int up, int up_left) {
-  const int p = left + up - up_left;
-  const int to_left = std::abs(p - left), to_up = std::abs(p - up), to_up_left = std::abs(p - up_left);
-  if (to_left <= to_up && to_left <= to_up_left) return left;
-  return to_up <= to_up_left ? up : up_left;
-}
-
 /// Undoes the filter of one row in place. `above` is the finished row before it, or zeros.
 void unfilter(int filter, std::size_t channels, std::string_view above, char* row) {
   for (std::size_t i = 0; i < above.size(); ++i) {
@@ -116,7 +161,9 @@ void unfilter(int filter, std::size_t channels, std::string_view above, char* ro
 std::string encode_png(const Image& image) {
   if (image.width <= 0 || image.height <= 0) throw InvalidInput("an image without pixels cannot be written");
   const bool opaque = std::all_of(image.pixels.begin(), image.pixels.end(), [](const Rgba& p) { return p.a == 255; });
-  const std::string rows = filtered_rows(image, opaque);
+  const bool grey = opaque && std::all_of(image.pixels.begin(), image.pixels.end(),
+                                          [](const Rgba& p) { return p.r == p.g && p.g == p.b; });
+  const std::string rows = filtered_rows(image, grey ? 1 : opaque ? 3 : 4);
   uLongf size = compressBound(rows.size());
   std::string data(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(data.data()), &size, as_bytes(rows), rows.size(), 6) != Z_OK)
@@ -125,7 +172,7 @@ std::string encode_png(const Image& image) {
   std::string header;
   append_u32(header, static_cast<std::uint32_t>(image.width));
   append_u32(header, static_cast<std::uint32_t>(image.height));
-  header += {8, static_cast<char>(opaque ? 2 : 6), 0, 0, 0};
+  header += {8, static_cast<char>(grey ? 0 : opaque ? 2 : 6), 0, 0, 0};
   std::string out(kSignature);
   append_chunk(out, "IHDR", header);
   append_chunk(out, "IDAT", data);

@@ -9,7 +9,8 @@
 
 namespace motex {
 
-/// PNG file, 8 bits a channel: RGB when every pixel is opaque, RGBA otherwise. Throws InvalidInput for an empty image.
+/// PNG file, 8 bits a channel: grey when every pixel is grey and opaque, RGB when every one is opaque, RGBA otherwise.
+/// Throws InvalidInput for an empty image.
 std::string encode_png(const Image& image);
 
 /// Reads 8-bit grey, RGB and RGBA PNG files without interlacing; others throw UnsupportedFile, broken ones ParseError

@@ -49,6 +49,27 @@ TEST(Png, OpaquePicturesHaveThreeChannels) {
   EXPECT_EQ(encode_png(noise(4, 4, false))[25], 6);
 }
 
+TEST(Png, GreyPicturesHaveOneChannel) {
+  Image image(31, 17);
+  for (int y = 0; y < 17; ++y)
+    for (int x = 0; x < 31; ++x) {
+      const auto level = static_cast<std::uint8_t>(x * x + 3 * y);
+      image.at(x, y) = {level, level, level, 255};
+    }
+  const std::string file = encode_png(image);
+  EXPECT_EQ(file[25], 0);
+  EXPECT_EQ(decode_png(file, "grey.png").pixels, image.pixels);
+}
+
+TEST(Png, SmoothPicturesAreSmall) {  // no filter of rows but Paeth and Average see a slope both ways
+  Image image(256, 256);
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x)
+      image.at(x, y) = {static_cast<std::uint8_t>((x * x + y * y) / 600), static_cast<std::uint8_t>((x * y) / 300),
+                        static_cast<std::uint8_t>((x + 2 * y) / 4), 255};
+  EXPECT_LT(encode_png(image).size(), 24000U);
+}
+
 TEST(Png, FlatPicturesAreSmall) { EXPECT_LT(encode_png(Image(1000, 1000, {250, 250, 250, 255})).size(), 8000U); }
 
 // 3 × 5 grey pixels whose rows use the filters none, sub, up, average and Paeth; made by hand and by zlib's own
