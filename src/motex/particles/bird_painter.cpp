@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSamples = 4;         // a side, of a pixel
 constexpr double kNearest = 0.7;    // wingspans from the camera; nearer birds are not drawn
-constexpr double kHazeDepth = 120;  // wingspans at which 1 − 1/e of the contrast is gone
+constexpr double kHazeDepth = 200;  // wingspans at which 1 − 1/e of the contrast is gone
 constexpr double kMostHaze = 0.5;
 constexpr float kAmbient = 0.45F;
 
@@ -152,7 +152,7 @@ BirdPainter::BirdPainter(const TexturedMotion& model, Planes background, double 
       const double tint = model.num_planes == 3 ? birds.colour[k].mean : 1;
       // Light of the mesh averages to about 0.75 of its colour.
       colours.body[k] = static_cast<float>(
-          std::clamp((static_cast<double>(none.haze[k]) + 1.15 * birds.amplitude.mean * tint) / 0.75, 22.0, 255.0));
+          std::clamp((static_cast<double>(none.haze[k]) + 1.7 * birds.amplitude.mean * tint) / 0.75, 22.0, 255.0));
     }
     colours_.push_back(colours);
   }

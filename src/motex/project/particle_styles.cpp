@@ -14,7 +14,7 @@ namespace motex {
 namespace {
 
 constexpr int kNumFills = 5;
-constexpr double kOutlineWidth = 0.9;  // pixels of the model
+constexpr double kOutlineWidth = 0.7;  // pixels of the model
 constexpr double kFullInkShare = 0.9;  // of bases are drawn in less than full ink
 constexpr double kWeakest = 0.02;      // of its strongest, from which on a shape is drawn
 constexpr float kContrast = 1.5F, kSaturation = 1.3F;

@@ -81,7 +81,7 @@ TEST(ParticleStyles, CartoonIsAFlatDiscWhereTheElementIs) {
   EXPECT_EQ(frame.picture.at(10, 90).r, 60);   // the background
   EXPECT_EQ(frame.layer.at(10, 90).a, 0);
   EXPECT_EQ(frame.layer.at(61, 25).a, 255);
-  const double radius = 3 * 2 + 0.9;  // with half of the outline
+  const double radius = 3 * 2 + 0.7;  // with half of the outline
   EXPECT_NEAR(covered(frame.layer), 3.1416 * radius * radius, 5);
   EXPECT_EQ(covered(paint(painter, {}).layer), 0);
 }
