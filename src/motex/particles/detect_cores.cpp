@@ -20,6 +20,7 @@ constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest eleme
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
 constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
+constexpr double kAgreement = 0.4;        // of the amplitude expected: the frame agrees with a guess
 constexpr double kWeakRatio = 0.2;       // of a stronger spot's peak there: a part of it
 
 double median(std::vector<double> values) {
@@ -51,14 +52,29 @@ class Detector {
   Detector(const Plane& residual, double noise, const DetectOptions& options)
       : noise_(noise), options_(options), fitter_(residual, fit_options(noise, options)) {}
 
+  /// Those seen before first, then the guesses where what is left agrees with them.
+  void expect(const std::vector<ExpectedBlob>& expected) {
+    for (const ExpectedBlob& one : expected)
+      if (one.is_seen) fitter_.add(one.blob, one.prior);
+    fitter_.fit(3);
+    for (const ExpectedBlob& one : expected)
+      if (!one.is_seen && one.blob.amplitude * left_amplitude(one.blob) > kAgreement * one.blob.amplitude * one.blob.amplitude)
+        fitter_.add(one.blob, one.prior);
+    fitter_.fit(2);
+    while (remove_doubtful()) fitter_.fit(2);
+    has_expected_ = !expected.empty();
+  }
+
   std::vector<Blob> run() {
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = has_expected_ ? 1 : 0; round < kRounds; ++round) {
       if (!add_peaks(round)) break;
       fitter_.fit(3);
       while (remove_doubtful()) fitter_.fit(2);
     }
     return fitter_.blobs();
   }
+
+  const Plane& left() const { return fitter_.residual(); }
 
  private:
   static FitBlobsOptions fit_options(double noise, const DetectOptions& options) {
@@ -128,9 +144,30 @@ class Detector {
     return false;
   }
 
+  /// Amplitude that the spot would have if it were fitted to what is left, its shape and place fixed.
+  double left_amplitude(const Blob& blob) const {
+    const Plane& left = fitter_.residual();
+    const double reach = 2 * blob.scale() * std::sqrt(blob.aspect());
+    const double c = std::cos(blob.angle()), s = std::sin(blob.angle()), e = std::hypot(blob.e1, blob.e2) / 2;
+    double product = 0, energy = 0;
+    for (int y = std::max(0, static_cast<int>(std::ceil(blob.y - reach)));
+         y <= std::min(left.height - 1, static_cast<int>(std::floor(blob.y + reach))); ++y)
+      for (int x = std::max(0, static_cast<int>(std::ceil(blob.x - reach)));
+           x <= std::min(left.width - 1, static_cast<int>(std::floor(blob.x + reach))); ++x) {
+        const double dx = x - blob.x, dy = y - blob.y;
+        const double u = (dx * c + dy * s) / (blob.scale() * std::exp(e)),
+                     v = (dy * c - dx * s) / (blob.scale() * std::exp(-e));
+        const double g = std::exp(-0.5 * (u * u + v * v));
+        product += g * static_cast<double>(left.at(x, y));
+        energy += g * g;
+      }
+    return energy > 0.5 ? product / energy : 0;
+  }
+
   double noise_;
   DetectOptions options_;
   BlobFitter fitter_;
+  bool has_expected_ = false;
 };
 
 std::vector<Plane> sample_of(const std::vector<Plane>& residuals) {
@@ -214,11 +251,24 @@ DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& re
   return out;
 }
 
-std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options) {
+std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options,
+                               const std::vector<ExpectedBlob>& expected, Plane* left) {
   const bool is_open = options.sign == CoreSign::kAuto || options.shape == CoreShape::kAuto;
   const DetectOptions chosen = is_open ? decided(options, {residual}, noise) : options;
   const bool is_dark = chosen.sign == CoreSign::kDark;
-  std::vector<Blob> blobs = Detector(is_dark ? negated(residual) : residual, noise, chosen).run();
+  Detector detector(is_dark ? negated(residual) : residual, noise, chosen);
+  if (is_dark) {
+    std::vector<ExpectedBlob> turned = expected;
+    for (ExpectedBlob& one : turned) {
+      one.blob.amplitude = -one.blob.amplitude;
+      one.prior.mean[5] = -one.prior.mean[5];
+    }
+    detector.expect(turned);
+  } else {
+    detector.expect(expected);
+  }
+  std::vector<Blob> blobs = detector.run();
+  if (left != nullptr) *left = is_dark ? negated(detector.left()) : detector.left();
   if (is_dark)
     for (Blob& blob : blobs) blob.amplitude = -blob.amplitude;
   std::stable_sort(blobs.begin(), blobs.end(),
@@ -226,10 +276,13 @@ std::vector<Blob> detect_blobs(const Plane& residual, double noise, const Detect
   return blobs;
 }
 
-Base core_of(const Blob& blob) {
-  Base base{BaseKind::kGaussian, blob.x, blob.y, std::clamp(blob.scale(), 0.6, 10.0), 0, {}};
-  if (blob.aspect() >= kRoundAspect) {
-    base.kind = BaseKind::kGaborCos;
+BaseKind core_kind(double aspect) { return aspect >= kRoundAspect ? BaseKind::kGaborCos : BaseKind::kGaussian; }
+
+Base core_of(const Blob& blob) { return core_of(blob, core_kind(blob.aspect())); }
+
+Base core_of(const Blob& blob, BaseKind kind) {
+  Base base{kind, blob.x, blob.y, std::clamp(blob.scale(), 0.6, 10.0), 0, {}};
+  if (kind == BaseKind::kGaborCos) {
     base.scale = std::clamp(blob.scale() / std::sqrt(blob.aspect()) / kBarBreadth, 0.6, 10.0);
     base.angle = std::fmod(blob.angle() + std::numbers::pi / 2, std::numbers::pi);
   }

@@ -43,16 +43,29 @@ double noise_of(const std::vector<Plane>& residuals);
 /// shape_misfit measured on those that stand alone.
 DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise);
 
+/// An element expected in a frame because its path leads there.
+struct ExpectedBlob {
+  Blob blob;           ///< to begin the fit with
+  BlobPrior prior;     ///< amplitudes of the prior have the sign of the element
+  bool is_seen = true; ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
+};
+
 /// Elements of one frame (residual = luma minus background) as Gaussian spots fitted jointly with their neighbours:
 /// 1. local maxima over place and scale of differences of Gaussians, above min_significance;
 /// 2. all fitted to the frame together; what they leave is searched again, so that of two that overlap both are
 ///    found; a spot stays only while it explains more than the noise and the misfit of its stronger neighbours would.
+/// expected: where to begin, and what is known there.
 /// Strongest first. sign and shape of the options are decided on this frame when they are auto.
-std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options);
+/// left: what the spots leave of the residual.
+std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options,
+                               const std::vector<ExpectedBlob>& expected = {}, Plane* left = nullptr);
 
 /// The core base that stands for a spot: a Gaussian where it is nearly round, else the bar (Gcos, turned across its
 /// long axis) of its breadth. Coefficient of plane 0 by its amplitude.
 Base core_of(const Blob& blob);
+/// The same of a kind chosen for the whole life of an element by its typical aspect.
+Base core_of(const Blob& blob, BaseKind kind);
+BaseKind core_kind(double aspect);
 
 /// core_of() of each of detect_blobs().
 std::vector<Base> detect_cores(const Plane& residual, double noise, const DetectOptions& options);

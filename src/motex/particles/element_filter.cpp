@@ -121,6 +121,7 @@ namespace {
 /// Place and velocity with their covariance at one frame.
 struct AxisState {
   double p = 0, v = 0, pp = 0, pv = 0, vv = 0;
+  double noise = -1;  // variance with which the sight of this frame was taken in; −1 = none
 };
 
 AxisState ahead(const AxisState& a, const AxisModel& model) {
@@ -154,6 +155,7 @@ std::vector<AxisState> smooth_axis(const AxisModel& model, const std::vector<dou
     const double off = values[t] - a.p;
     const double square = off * off / (a.pp + variances[t]);
     const double noise = variances[t] * std::max(1.0, square / kOutlierDistance);
+    a.noise = noise;
     const double kp = a.pp / (a.pp + noise), kv = a.pv / (a.pp + noise);
     a.p += kp * off;
     a.v += kv * off;
@@ -180,6 +182,20 @@ std::vector<AxisState> smooth_axis(const AxisModel& model, const std::vector<dou
   return out;
 }
 
+/// The place without the sight of its own frame: precisions subtract.
+void without_own(const AxisState& a, double seen, double& place, double& variance) {
+  place = a.p;
+  variance = a.pp;
+  if (a.noise <= 0) return;
+  const double precision = 1 / std::max(a.pp, 1e-12) - 1 / a.noise;
+  if (precision < 1e-4) {
+    variance = 1e4;
+    return;
+  }
+  place = (a.p / std::max(a.pp, 1e-12) - seen / a.noise) / precision;
+  variance = 1 / precision;
+}
+
 }  // namespace
 
 std::vector<SmoothedPlace> smooth_path(const ElementModel& model, const std::vector<Sight>& sights, int num_before,
@@ -199,8 +215,12 @@ std::vector<SmoothedPlace> smooth_path(const ElementModel& model, const std::vec
   const std::vector<AxisState> sx = smooth_axis(model.x, x, variance_x, seen),
                                sy = smooth_axis(model.y, y, variance_y, seen);
   std::vector<SmoothedPlace> out(size);
-  for (std::size_t t = 0; t < size; ++t)
-    out[t] = {sx[t].p, sy[t].p, sx[t].v, sy[t].v, std::max(0.0, sx[t].pp), std::max(0.0, sy[t].pp)};
+  for (std::size_t t = 0; t < size; ++t) {
+    SmoothedPlace& place = out[t];
+    place = {sx[t].p, sy[t].p, sx[t].v, sy[t].v, std::max(0.0, sx[t].pp), std::max(0.0, sy[t].pp), 0, 0, 0, 0};
+    without_own(sx[t], x[t], place.others_x, place.others_variance_x);
+    without_own(sy[t], y[t], place.others_y, place.others_variance_y);
+  }
   return out;
 }
 

@@ -78,12 +78,16 @@ class ElementFilter {
   int frame_ = 0;
 };
 
-/// Places of an element in each frame from its first sight to its last, given all of its sights (in rising order of
-/// frames): Rauch–Tung–Striebel smoothing.
+/// An element in one frame given its sights in all frames, and what those of the other frames alone say of its place.
 struct SmoothedPlace {
   double x = 0, y = 0, vx = 0, vy = 0;
   double variance_x = 0, variance_y = 0;
+  double others_x = 0, others_y = 0;
+  double others_variance_x = 0, others_variance_y = 0;
 };
+
+/// In each frame from num_before frames before the first sight to num_after frames behind the last; sights in rising
+/// order of frames. Rauch–Tung–Striebel smoothing; outliers count less.
 std::vector<SmoothedPlace> smooth_path(const ElementModel& model, const std::vector<Sight>& sights, int num_before = 0,
                                        int num_after = 0);
 

@@ -57,10 +57,6 @@ LevelModel level_of(const SightFrames& frames, double Sight::*value) {
   return {mean, variance, 0.02 * variance, 0.2 * variance};
 }
 
-std::vector<SmoothedPlace> places_of(const SightChain& chain, const ElementModel& model) {
-  return smooth_path(model, chain.sights);
-}
-
 std::pair<int, int> extent_of(const SightFrames& frames, int width, int height) {
   if (width > 0 && height > 0) return {width, height};
   double right = 0, bottom = 0;
@@ -70,32 +66,6 @@ std::pair<int, int> extent_of(const SightFrames& frames, int width, int height) 
       bottom = std::max(bottom, sight.y);
     }
   return {static_cast<int>(right) + 1, static_cast<int>(bottom) + 1};
-}
-
-/// Everything but what becomes of the chains.
-std::vector<SightChain> linked(const SightFrames& frames, int width, int height, const LinkOptions& options,
-                               LinkReport& report) {
-  std::vector<std::vector<Base>> places(frames.size());
-  for (std::size_t t = 0; t < frames.size(); ++t)
-    for (const Sight& sight : frames[t]) places[t].push_back({BaseKind::kGaussian, sight.x, sight.y, 1, 0, {}});
-  report.flow = estimate_flow(places, options.max_speed);
-  const auto [w, h] = extent_of(frames, width, height);
-  const LinkedSights found =
-      link_sights(frames, first_element_model(frames, report.flow, w, h), {w, h, options.max_gap, options.sweeps});
-  report.model = found.model;
-  report.expected_wrong_share = found.expected_wrong_share;
-  report.num_links = found.num_links;
-  std::vector<SightChain> chains;
-  for (const SightChain& chain : found.chains) {
-    if (is_element(chain, found.model, w, h, static_cast<int>(frames.size()), options.min_frames)) {
-      report.confidences.push_back(chain.confidence);
-      report.num_filled += chain.sights.back().frame - chain.sights.front().frame + 1 - static_cast<int>(chain.idx.size());
-      chains.push_back(chain);
-    } else {
-      report.num_dropped += static_cast<int>(chain.idx.size());
-    }
-  }
-  return chains;
 }
 
 /// Between two sights: place from the smoother, the rest in proportion to time.
@@ -108,8 +78,7 @@ Base between(const Base& a, const Base& b, double share) {
   return base;
 }
 
-}  // namespace
-
+/// A first guess of how the elements of these frames move and look.
 ElementModel first_element_model(const SightFrames& frames, const FlowEstimate& flow, int width, int height) {
   ElementModel model;
   if (flow.is_trusted) {
@@ -138,6 +107,7 @@ ElementModel first_element_model(const SightFrames& frames, const FlowEstimate& 
   return model;
 }
 
+/// Long enough, or short because it crosses the picture's edge or an end of the clip at both of its ends.
 bool is_element(const SightChain& chain, const ElementModel& model, int width, int height, int num_frames,
                 int min_frames) {
   if (static_cast<int>(chain.sights.size()) >= min_frames) return true;
@@ -145,6 +115,35 @@ bool is_element(const SightChain& chain, const ElementModel& model, int width, i
   const Sight &first = chain.sights.front(), &last = chain.sights.back();
   return (first.frame == 0 || edges.is_entering(model, first.x, first.y)) &&
          (last.frame == num_frames - 1 || edges.is_leaving(model, last.x, last.y));
+}
+
+}  // namespace
+
+std::vector<SightChain> link_chains(const SightFrames& frames, int width, int height, const LinkOptions& options,
+                                    const ElementModel* start, LinkReport& report) {
+  report = {};
+  std::vector<std::vector<Base>> places(frames.size());
+  for (std::size_t t = 0; t < frames.size(); ++t)
+    for (const Sight& sight : frames[t]) places[t].push_back({BaseKind::kGaussian, sight.x, sight.y, 1, 0, {}});
+  report.flow = estimate_flow(places, options.max_speed);
+  const auto [w, h] = extent_of(frames, width, height);
+  const ElementModel first = start != nullptr ? *start : first_element_model(frames, report.flow, w, h);
+  LinkedSights found = link_sights(frames, first, {w, h, options.max_gap, options.sweeps});
+  report.model = found.model;
+  report.expected_wrong_share = found.expected_wrong_share;
+  report.num_links = found.num_links;
+  std::vector<SightChain> chains;
+  for (SightChain& chain : found.chains) {
+    const int num_seen = static_cast<int>(chain.idx.size());
+    if (is_element(chain, found.model, w, h, static_cast<int>(frames.size()), options.min_frames)) {
+      report.confidences.push_back(chain.confidence);
+      report.num_filled += chain.sights.back().frame - chain.sights.front().frame + 1 - num_seen;
+      chains.push_back(std::move(chain));
+    } else {
+      report.num_dropped += num_seen;
+    }
+  }
+  return chains;
 }
 
 std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int width, int height,
@@ -155,10 +154,9 @@ std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int 
       sights[t].push_back(sight_of(base.x, base.y, peak_amplitude(base), base.scale, t));
   LinkReport own;
   LinkReport& out = report != nullptr ? *report : own;
-  out = {};
   std::vector<Cable> cables;
-  for (const SightChain& chain : linked(sights, width, height, options, out)) {
-    const std::vector<SmoothedPlace> places = places_of(chain, out.model);
+  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out)) {
+    const std::vector<SmoothedPlace> places = smooth_path(out.model, chain.sights);
     Cable cable;
     cable.first_frame = chain.sights.front().frame;
     std::size_t k = 0;
@@ -190,10 +188,9 @@ std::vector<Track> link_points(const std::vector<std::vector<TrackPoint>>& frame
       sights[t].push_back(sight_of(point.x, point.y, point.amplitude, point.scale, t));
   LinkReport own;
   LinkReport& out = report != nullptr ? *report : own;
-  out = {};
   std::vector<Track> tracks;
-  for (const SightChain& chain : linked(sights, width, height, options, out)) {
-    const std::vector<SmoothedPlace> places = places_of(chain, out.model);
+  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out)) {
+    const std::vector<SmoothedPlace> places = smooth_path(out.model, chain.sights);
     Track track;
     track.id = static_cast<std::int64_t>(tracks.size());
     std::size_t k = 0;

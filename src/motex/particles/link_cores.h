@@ -54,13 +54,10 @@ std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int 
 std::vector<Track> link_points(const std::vector<std::vector<TrackPoint>>& frames, int width, int height,
                                const LinkOptions& options = {}, LinkReport* report = nullptr);
 
-/// A first guess of how the elements of these frames move and look.
-ElementModel first_element_model(const std::vector<std::vector<Sight>>& frames, const FlowEstimate& flow, int width,
-                                 int height);
-
-/// Whether a path of so many sights is an element: long enough, or short because it crosses the picture's edge or an
-/// end of the clip at both of its ends.
-bool is_element(const SightChain& chain, const ElementModel& model, int width, int height, int num_frames,
-                int min_frames);
+/// The joining alone: paths of elements through sights (frames[t][i].frame = t), shorter ones dropped unless they cross
+/// the picture's edge or an end of the clip at both of their ends. start: what is known of the elements, nullptr =
+/// nothing.
+std::vector<SightChain> link_chains(const std::vector<std::vector<Sight>>& frames, int width, int height,
+                                    const LinkOptions& options, const ElementModel* start, LinkReport& report);
 
 }  // namespace motex

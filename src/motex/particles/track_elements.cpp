@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/track_elements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "motex/core/error.h"
+#include "motex/core/parallel.h"
+#include "motex/particles/fit_element_model.h"
+
+namespace motex {
+namespace {
+
+constexpr std::size_t kBackgroundFrames = 31;  // that the background is re-estimated from
+constexpr std::size_t kSureLength = 4;         // sights that a path needs before it says what to expect
+constexpr int kReachOut = 2;                   // frames before and after a path where it is looked for
+constexpr double kWidening = 1.5;              // of the deviations expected: paths may be wrong
+
+using BlobFrames = std::vector<std::vector<Blob>>;
+
+void check(const ClipFrames& frames, const Plane& background) {
+  if (frames.luma.empty()) throw InvalidInput("tracking needs at least one frame");
+  for (const Plane& plane : frames.luma)
+    if (plane.width != background.width || plane.height != background.height || plane.values.empty())
+      throw InvalidInput("the frames and the background of a clip must have one size");
+}
+
+Plane minus(Plane a, const Plane& b) {
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+  return a;
+}
+
+std::vector<std::vector<Sight>> sights_of(const BlobFrames& blobs) {
+  std::vector<std::vector<Sight>> sights(blobs.size());
+  for (std::size_t t = 0; t < blobs.size(); ++t)
+    for (const Blob& blob : blobs[t])
+      sights[t].push_back({blob.x, blob.y, std::log(std::max(std::abs(blob.amplitude), 1e-6)), blob.log_scale,
+                           blob.place_spread * blob.place_spread, static_cast<int>(t)});
+  return sights;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// One frame of a cable on the way to its base.
+const Blob& blob_at(const BlobFrames& blobs, const SightChain& chain, std::size_t k) {
+  return blobs[static_cast<std::size_t>(chain.sights[k].frame)][static_cast<std::size_t>(chain.idx[k])];
+}
+
+/// Looks and places that a path leads one to expect, into the frames it crosses.
+class Expectations {
+ public:
+  Expectations(const BlobFrames& blobs, const ElementModel& model, int width, int height, bool is_oriented)
+      : blobs_(blobs), model_(model), width_(width), height_(height), is_oriented_(is_oriented), frames_(blobs.size()) {}
+
+  void add(const SightChain& chain) {
+    const bool is_sure = chain.sights.size() >= kSureLength;
+    const int last_frame = static_cast<int>(frames_.size()) - 1;
+    const int before = is_sure ? std::min(kReachOut, chain.sights.front().frame) : 0,
+              after = is_sure ? std::min(kReachOut, last_frame - chain.sights.back().frame) : 0;
+    const std::vector<SmoothedPlace> places = smooth_path(model_, chain.sights, before, after);
+    const int first = chain.sights.front().frame - before;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const int frame = first + static_cast<int>(i);
+      while (k + 1 < chain.sights.size() && chain.sights[k + 1].frame <= frame) ++k;
+      ExpectedBlob one;
+      one.blob = blob_at(blobs_, chain, k);
+      one.is_seen = chain.sights[k].frame == frame;
+      if (is_sure) set_prior(chain, places[i], k, one);
+      if (!one.is_seen && !is_inside(places[i])) continue;
+      frames_[static_cast<std::size_t>(frame)].push_back(one);
+    }
+  }
+
+  const std::vector<ExpectedBlob>& at(int frame) const { return frames_[static_cast<std::size_t>(frame)]; }
+
+ private:
+  bool is_inside(const SmoothedPlace& place) const {
+    return place.x > -0.5 && place.y > -0.5 && place.x < width_ - 0.5 && place.y < height_ - 0.5;
+  }
+
+  /// Typical of the sights of the path near k, and how much single ones differ.
+  double typical(const SightChain& chain, std::size_t k, double Blob::*field, double& deviation) const {
+    std::vector<double> values;
+    const std::size_t first = k > 7 ? k - 7 : 0, end = std::min(chain.idx.size(), k + 8);
+    for (std::size_t i = first; i < end; ++i) values.push_back(blob_at(blobs_, chain, i).*field);
+    const double middle = median(values);
+    for (double& value : values) value = std::abs(value - middle);
+    deviation = 1.4826 * median(values);
+    return middle;
+  }
+
+  void set_prior(const SightChain& chain, const SmoothedPlace& place, std::size_t k, ExpectedBlob& one) const {
+    double scale_spread = 0, amplitude_spread = 0;
+    const double log_scale = typical(chain, k, &Blob::log_scale, scale_spread);
+    const double amplitude = typical(chain, k, &Blob::amplitude, amplitude_spread);
+    scale_spread = std::max(0.04, kWidening * scale_spread);
+    amplitude_spread = std::max(0.05 * std::abs(amplitude), kWidening * amplitude_spread);
+    const double wider = kWidening * kWidening;
+    const double vx = 0.01 + wider * place.others_variance_x, vy = 0.01 + wider * place.others_variance_y;
+    one.prior.mean = {place.others_x, place.others_y, log_scale, 0, 0, amplitude};
+    one.prior.precision = {1 / vx, 1 / vy, 1 / (scale_spread * scale_spread), 0, 0, 1 / (amplitude_spread * amplitude_spread)};
+    if (is_oriented_)
+      for (const std::size_t p : {std::size_t{3}, std::size_t{4}}) {
+        double spread = 0;
+        one.prior.mean[p] = typical(chain, k, p == 3 ? &Blob::e1 : &Blob::e2, spread);
+        one.prior.precision[p] = 1 / std::max(0.04, wider * spread * spread);
+      }
+    if (one.is_seen) return;
+    one.blob.x = place.x;
+    one.blob.y = place.y;
+    one.blob.log_scale = log_scale;
+    one.blob.amplitude = amplitude;
+  }
+
+  const BlobFrames& blobs_;
+  const ElementModel& model_;
+  int width_, height_;
+  bool is_oriented_;
+  std::vector<std::vector<ExpectedBlob>> frames_;
+};
+
+/// What all frames keep in common when the elements are taken off belongs to the background.
+void improve_background(const std::vector<Plane>& left, Plane& background) {
+  const std::size_t num = std::min(kBackgroundFrames, left.size());
+  if (num < 5) return;
+  std::vector<float> column(num);
+  for (std::size_t i = 0; i < background.values.size(); ++i) {
+    for (std::size_t k = 0; k < num; ++k) column[k] = left[(2 * k + 1) * left.size() / (2 * num)].values[i];
+    const auto middle = column.begin() + static_cast<std::ptrdiff_t>(num / 2);
+    std::nth_element(column.begin(), middle, column.end());
+    background.values[i] += *middle;
+  }
+}
+
+/// Between two sights: looks in proportion to time.
+Blob between(const Blob& a, const Blob& b, double share) {
+  Blob out = a;
+  const auto mix = [&](double Blob::*field) { out.*field = (1 - share) * (a.*field) + share * (b.*field); };
+  mix(&Blob::log_scale);
+  mix(&Blob::e1);
+  mix(&Blob::e2);
+  mix(&Blob::amplitude);
+  return out;
+}
+
+/// Of the angles that are the same modulo π the one nearest to `before`.
+double unwrapped(double angle, double before) {
+  return angle + std::numbers::pi * std::round((before - angle) / std::numbers::pi);
+}
+
+Cable cable_of(const SightChain& chain, const BlobFrames& blobs, const ElementModel& model) {
+  const std::vector<SmoothedPlace> places = smooth_path(model, chain.sights);
+  std::vector<Blob> path;
+  std::vector<double> aspects;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int frame = chain.sights.front().frame + static_cast<int>(i);
+    while (k + 1 < chain.sights.size() && chain.sights[k + 1].frame <= frame) ++k;
+    Blob blob = blob_at(blobs, chain, k);
+    const int since = frame - chain.sights[k].frame;
+    if (since > 0)
+      blob = between(blob, blob_at(blobs, chain, k + 1),
+                     static_cast<double>(since) / (chain.sights[k + 1].frame - chain.sights[k].frame));
+    blob.x = places[i].x;
+    blob.y = places[i].y;
+    path.push_back(blob);
+    aspects.push_back(blob.aspect());
+  }
+  // One kind for the whole life of an element.
+  const BaseKind kind = core_kind(median(aspects));
+  Cable cable;
+  cable.first_frame = chain.sights.front().frame;
+  double before = 0;
+  for (const Blob& blob : path) {
+    Base base = core_of(blob, kind);
+    if (kind == BaseKind::kGaborCos && !cable.core.empty()) base.angle = unwrapped(base.angle, before);
+    before = base.angle;
+    cable.core.push_back(base);
+  }
+  return cable;
+}
+
+}  // namespace
+
+std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& background, double noise,
+                                  const TrackElementsOptions& options, const JobContext& job,
+                                  TrackElementsReport* report) {
+  check(frames, background);
+  TrackElementsReport own;
+  TrackElementsReport& out = report != nullptr ? *report : own;
+  out = {};
+  out.background = background;
+  const int num_frames = frames.num_frames();
+  std::vector<Plane> residuals(frames.luma.size()), left(frames.luma.size());
+  const auto subtract_background = [&] {
+    parallel_for(job.jobs, num_frames, [&](int t) {
+      residuals[static_cast<std::size_t>(t)] = minus(frames.luma[static_cast<std::size_t>(t)], out.background);
+    });
+  };
+  subtract_background();
+  out.noise = noise > 0 ? noise : noise_of(residuals);
+  out.detect = decided(options.detect, residuals, out.noise);
+  BlobFrames blobs(frames.luma.size());
+  std::vector<SightChain> chains;
+  for (int round = 0; round < options.rounds; ++round) {
+    job.check_cancelled();
+    job.progress("tracking elements", static_cast<double>(round) / options.rounds);
+    Expectations expected(blobs, out.link.model, frames.width, frames.height,
+                          out.detect.shape == CoreShape::kOriented);
+    for (const SightChain& chain : chains) expected.add(chain);
+    BlobFrames found(blobs.size());
+    parallel_for(job.jobs, num_frames, [&](int t) {
+      job.check_cancelled();
+      const auto k = static_cast<std::size_t>(t);
+      found[k] = detect_blobs(residuals[k], out.noise, out.detect, expected.at(t), &left[k]);
+    });
+    blobs = std::move(found);
+    const ElementModel before = out.link.model;
+    chains = link_chains(sights_of(blobs), frames.width, frames.height, options.link, round > 0 ? &before : nullptr,
+                         out.link);
+    if (round + 1 == options.rounds) break;
+    improve_background(left, out.background);
+    subtract_background();
+    if (noise <= 0) out.noise = noise_of(left);
+  }
+  if (noise <= 0) out.noise = noise_of(left);
+  std::vector<Cable> cables;
+  for (const SightChain& chain : chains) cables.push_back(cable_of(chain, blobs, out.link.model));
+  for (const auto& frame : blobs)
+    out.detections_per_frame += static_cast<double>(frame.size()) / static_cast<double>(num_frames);
+  job.progress("tracking elements", 1);
+  return cables;
+}
+
+}  // namespace motex
