@@ -16,6 +16,7 @@ namespace {
 constexpr int kRestarts = 6, kMeansSteps = 40, kMixtureSteps = 60;
 constexpr int kSilhouettePoints = 700;
 constexpr double kLeastVariance = 2e-4;
+constexpr double kWorthOneMore = 0.05;  // of silhouette
 
 /// Labels and centres of one run from centres drawn by squared distance (k-means++).
 struct KMeans {
@@ -239,7 +240,8 @@ Clusters choose_clusters(const Matrix& points, const ChooseClustersOptions& opti
     const auto num = static_cast<int>(found.centres.rows());
     if (num < 2 || nearest_centres(found.centres) < options.min_distance) continue;
     const double silhouette = silhouette_of(points, found.labels, num);
-    if (silhouette < options.min_silhouette || silhouette <= best_silhouette) continue;
+    if (silhouette < options.min_silhouette || (best_silhouette > 0 && silhouette < best_silhouette + kWorthOneMore))
+      continue;
     best = std::move(found);
     best_silhouette = silhouette;
   }
