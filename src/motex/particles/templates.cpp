@@ -102,11 +102,25 @@ std::vector<int> species_of(const std::vector<Look>& looks, const std::vector<st
 
 double mean_of(const std::vector<double>& values) { return spread_of(values).mean; }
 
+/// Colours of faint elements are noise: each counts by its strength.
+Spread weighted_spread(const std::vector<double>& values, const std::vector<double>& weights) {
+  double sum = 0, mean = 0, square = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += weights[i];
+    mean += weights[i] * values[i];
+  }
+  if (sum <= 0) return {};
+  mean /= sum;
+  for (std::size_t i = 0; i < values.size(); ++i) square += weights[i] * (values[i] - mean) * (values[i] - mean);
+  return {mean, std::sqrt(square / sum)};
+}
+
 /// Sizes, brightness, angles and colours over the cables of a species.
 void describe_cores(const std::vector<Cable>& cables, const std::vector<std::size_t>& members, int num_planes,
                     MovetonTemplate& out) {
   std::vector<double> log_scales, amplitudes, angles;
   std::array<std::vector<double>, 3> colours;
+  std::vector<double> strengths;
   for (const std::size_t c : members) {
     std::vector<double> log_scale, amplitude, angle;
     std::array<double, 3> colour{};
@@ -123,12 +137,14 @@ void describe_cores(const std::vector<Cable>& cables, const std::vector<std::siz
     log_scales.push_back(mean_of(log_scale));
     amplitudes.push_back(mean_of(amplitude));
     angles.push_back(mean_of(angle));
-    for (std::size_t k = 0; k < 3 && strength != 0; ++k) colours[k].push_back(colour[k] / strength);
+    if (strength == 0) continue;
+    strengths.push_back(std::abs(strength));
+    for (std::size_t k = 0; k < 3; ++k) colours[k].push_back(colour[k] / strength);
   }
   out.log_scale = spread_of(log_scales);
   out.amplitude = spread_of(amplitudes);
   out.angle = spread_of(angles);
-  for (std::size_t k = 0; k < 3; ++k) out.colour[k] = spread_of(colours[k]);
+  for (std::size_t k = 0; k < 3; ++k) out.colour[k] = weighted_spread(colours[k], strengths);
 }
 
 BaseKind usual_kind(const std::vector<Cable>& cables, const std::vector<std::size_t>& members) {
