@@ -44,11 +44,12 @@ CommandTable make_table() {
       motion_texton_merge(),
       motion_texton_weight(),
       motion_texton_undo(),
+      particles_learn(),
       particles_info(),
       particles_tracks(),
       particles_decompose(),
       particles_score(),
-      doctor(),
+      particles_simulate_snow(), particles_simulate_birds(), particles_simulate_fireworks(), doctor(),
   };
   // clang-format on
 }

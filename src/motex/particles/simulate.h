@@ -88,6 +88,91 @@ struct SimulateSnowOptions {
 /// density is even and steady.
 SimulatedScene simulate_snow(const SimulateSnowOptions& options = {});
 
+struct SimulateBirdsOptions {
+  int width = 320, height = 240, frames = 150;
+  double frames_per_sec = 25;
+  double elements = 10;
+  double group_size = 3;
+  double wind = 2, rise = 0.3;
+  double persistence = 0.9, deviation = 0.08, spread = 0.4;
+  double min_size = 1.6, max_size = 3.2;
+  double min_amplitude = 60, max_amplitude = 110;
+  double stay = 0.3;
+  double noise = 3;
+  std::uint64_t seed = 1;
+
+  template <typename Self, typename Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
+    visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
+    visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
+    visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+    visit(Field{"elements", "", "birds in a frame, on average"}, self.elements, Range{0, 2000});
+    visit(Field{"group_size", "", "birds that fly together, on average"}, self.group_size, Range{1, 100});
+    visit(Field{"wind", "pixels a frame", "mean velocity to the right"}, self.wind, Range{-100, 100});
+    visit(Field{"rise", "pixels a frame", "mean velocity upwards"}, self.rise, Range{-100, 100});
+    visit(Field{"persistence", "", "phi: share of a bird's velocity that stays to the next frame"}, self.persistence,
+          Range{0, 0.99});
+    visit(Field{"deviation", "pixels a frame", "noise d of the velocity in each frame"}, self.deviation, Range{0, 20});
+    visit(Field{"spread", "pixels a frame", "deviation of the groups' mean velocities"}, self.spread, Range{0, 20});
+    visit(Field{"min_size", "pixels", "smallest body, deviation across"}, self.min_size, Range{0.3, 50});
+    visit(Field{"max_size", "pixels", "largest"}, self.max_size, Range{0.3, 50});
+    visit(Field{"min_amplitude", "grey levels", "how much the palest bird is darker than the sky"}, self.min_amplitude,
+          Range{0, 255});
+    visit(Field{"max_amplitude", "grey levels", "and the darkest"}, self.max_amplitude, Range{0, 255});
+    visit(Field{"stay", "", "probability that wings stay as they are to the next frame"}, self.stay, Range{0, 1});
+    visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
+    visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+  }
+};
+
+/// Groups of dark birds before a blue sky: a body and two wings, which are up, level or down by a Markov chain of
+/// three states: up goes to level (.85 of what does not stay) or down, level to down (.6) or up, down to level (.9) or
+/// up. Birds of a group share their mean velocity.
+SimulatedScene simulate_birds(const SimulateBirdsOptions& options = {});
+
+struct SimulateFireworksOptions {
+  int width = 320, height = 240, frames = 150;
+  double frames_per_sec = 25;
+  int bursts = 5;
+  double elements = 60;
+  double speed = 2.2, spread = 0.5;
+  double persistence = 0.965, gravity = 0.05, deviation = 0.02;
+  double min_life = 28, max_life = 50;
+  double min_size = 0.8, max_size = 1.3;
+  double amplitude = 170;
+  double noise = 3;
+  std::uint64_t seed = 1;
+
+  template <typename Self, typename Visitor>
+  static void visit_fields(Self& self, Visitor&& visit) {
+    visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
+    visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
+    visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
+    visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+    visit(Field{"bursts", "", "in the whole scene"}, self.bursts, Range{0, 10000});
+    visit(Field{"elements", "", "sparks of a burst, on average"}, self.elements, Range{1, 5000});
+    visit(Field{"speed", "pixels a frame", "of sparks at their birth, on average"}, self.speed, Range{0, 100});
+    visit(Field{"spread", "pixels a frame", "deviation of that"}, self.spread, Range{0, 100});
+    visit(Field{"persistence", "", "phi: share of a spark's velocity that stays to the next frame"}, self.persistence,
+          Range{0, 0.99});
+    visit(Field{"gravity", "pixels a frame²", "added to the velocity downwards in each frame"}, self.gravity,
+          Range{-10, 10});
+    visit(Field{"deviation", "pixels a frame", "noise d of the velocity in each frame"}, self.deviation, Range{0, 20});
+    visit(Field{"min_life", "frames", "of a spark"}, self.min_life, Range{1, 10000});
+    visit(Field{"max_life", "frames", "of a spark"}, self.max_life, Range{1, 10000});
+    visit(Field{"min_size", "pixels", "smallest deviation across a spark"}, self.min_size, Range{0.3, 50});
+    visit(Field{"max_size", "pixels", "largest"}, self.max_size, Range{0.3, 50});
+    visit(Field{"amplitude", "grey levels", "of a spark at its birth, on average"}, self.amplitude, Range{0, 255});
+    visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
+    visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+  }
+};
+
+/// Bursts spread over the scene's time: sparks leave one point at one (fractional) time in all directions, slow down,
+/// fall and fade; drawn as streaks as long as their way in a frame, of one colour a burst, on a dark sky.
+SimulatedScene simulate_fireworks(const SimulateFireworksOptions& options = {});
+
 /// Frames as learning takes them.
 ClipFrames clip_frames_of(const SimulatedScene& scene);
 /// True tracks as cables of Gaussians whose peak is the amplitude (luma in every plane). Points of no amplitude are
