@@ -410,6 +410,61 @@ double BlobFitter::misfit(std::size_t idx) const {
   return num > 0 ? sum / num : 0;
 }
 
+double BlobFitter::cost_near(const Blob& blob) const {
+  const Box box = box_of(blob, residual_, 2);
+  double sum = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x)
+      sum += static_cast<double>(residual_.at(x, y)) * static_cast<double>(residual_.at(x, y));
+  return sum / (options_.noise * options_.noise);
+}
+
+bool BlobFitter::split(std::size_t idx, double min_gain) {
+  const Blob one = blobs_[idx];
+  const Box box = box_of(one, residual_, 0);
+  // Second moments of what is left, weighted by the spot: two spots leave more along their line than across.
+  double along = 0, diagonal = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const double dx = x - one.x, dy = y - one.y;
+      const double weight = std::exp(-0.25 * (dx * dx + dy * dy) / (one.scale() * one.scale()));
+      const double value = weight * static_cast<double>(residual_.at(x, y)) * (one.amplitude > 0 ? 1 : -1);
+      along += value * (dx * dx - dy * dy);
+      diagonal += value * 2 * dx * dy;
+    }
+  const double angle = 0.5 * std::atan2(diagonal, along), away = 0.7 * one.scale();
+  const double before = cost_near(one);
+  Blob a = one, b = one;
+  a.x += away * std::cos(angle);
+  a.y += away * std::sin(angle);
+  b.x -= away * std::cos(angle);
+  b.y -= away * std::sin(angle);
+  for (Blob* half : {&a, &b}) {
+    half->amplitude *= 0.65;
+    half->log_scale -= 0.15;
+  }
+  paint(one, -1);
+  blobs_[idx] = a;
+  paint(a, 1);
+  blobs_.push_back(b);
+  priors_.emplace_back();
+  is_settled_.push_back(0);
+  paint(b, 1);
+  fit_cluster({static_cast<int>(idx), static_cast<int>(blobs_.size()) - 1});
+  if (before - cost_near(one) >= min_gain) {
+    unsettle_near(one);
+    return true;
+  }
+  paint(blobs_.back(), -1);
+  blobs_.pop_back();
+  priors_.pop_back();
+  is_settled_.pop_back();
+  paint(blobs_[idx], -1);
+  blobs_[idx] = one;
+  paint(one, 1);
+  return false;
+}
+
 std::vector<std::vector<int>> BlobFitter::clusters() const {
   // Nearest pairs first, so that a cluster that grows too large keeps those that overlap most.
   struct Pair {

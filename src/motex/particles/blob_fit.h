@@ -48,6 +48,10 @@ class BlobFitter {
   /// Fits every cluster with a member that is not settled (added, or next to one that moved).
   void fit(int num_sweeps);
 
+  /// Puts two in the place of one, along the direction in which it leaves most, when Σ residual² / noise² falls by
+  /// min_gain or more; the second is added at the end.
+  bool split(std::size_t idx, double min_gain);
+
   const std::vector<Blob>& blobs() const { return blobs_; }
   const Plane& residual() const { return residual_; }  ///< image − Σ blobs
   /// Mean of residual² within two deviations of the blob's centre; 0 when it lies outside the image.
@@ -55,6 +59,7 @@ class BlobFitter {
 
  private:
   std::vector<std::vector<int>> clusters() const;
+  double cost_near(const Blob& blob) const;
   bool fit_cluster(const std::vector<int>& members);
   void unsettle_near(const Blob& blob);
   void paint(const Blob& blob, float sign);

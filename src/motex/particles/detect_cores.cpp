@@ -20,6 +20,8 @@ constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest eleme
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
 constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
+constexpr double kSuspicious = 2;         // deviations of the mean square of what a spot leaves
+constexpr double kSplitGain = 35;         // of the squared error in squared noises, for four more parameters
 constexpr double kAgreement = 0.4;        // of the amplitude expected: the frame agrees with a guess
 constexpr double kWeakRatio = 0.2;       // of a stronger spot's peak there: a part of it
 
@@ -71,6 +73,10 @@ class Detector {
       fitter_.fit(3);
       while (remove_doubtful()) fitter_.fit(2);
     }
+    if (split_pairs()) {
+      fitter_.fit(2);
+      while (remove_doubtful()) fitter_.fit(2);
+    }
     return fitter_.blobs();
   }
 
@@ -103,6 +109,19 @@ class Detector {
       if (k < num_before && std::abs(peak.amplitude) < least * shadow(blobs[k], peak.x, peak.y)) return true;
     }
     return false;
+  }
+
+  /// Spots that leave more than noise and misfit may be two.
+  bool split_pairs() {
+    const std::size_t num = fitter_.blobs().size();
+    for (std::size_t k = 0; k < num; ++k) {
+      const Blob& blob = fitter_.blobs()[k];
+      const double misfit = options_.shape_misfit * blob.amplitude, expected = noise_ * noise_ + 4 * misfit * misfit;
+      const double num_pixels = 4 * std::numbers::pi * blob.scale() * blob.scale();
+      if (fitter_.misfit(k) < expected * (1 + kSuspicious * std::sqrt(2 / num_pixels))) continue;
+      fitter_.split(k, kSplitGain + 4 * misfit * misfit / (noise_ * noise_) * num_pixels);
+    }
+    return fitter_.blobs().size() > num;
   }
 
   /// Takes away the least sure of the spots that the fit has shown not to be elements.
