@@ -8,7 +8,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "arguments.h"
 #include "motex/core/error.h"
+#include "motex/particles/carry_bases.h"
 #include "motex/project/textured_motion_file.h"
 #include "motex/video_io/video_reader.h"
 #include "output_file.h"
@@ -24,15 +26,19 @@ TexturedMotion load_particles_model(const std::string& path) {
   return load_textured_motion(path);
 }
 
+std::pair<int, int> parse_picture_size(const std::string& text) {
+  const std::size_t mark = text.find_first_of("x,");
+  if (mark == std::string::npos) throw InvalidInput("--size: write width x height, as in 320x240, not " + text);
+  std::pair<int, int> size;
+  parse_value("--size", text.substr(0, mark), size.first);
+  parse_value("--size", text.substr(mark + 1), size.second);
+  if (size.first < 1 || size.second < 1) throw InvalidInput("--size: width and height are at least 1");
+  return size;
+}
+
 Planes reconstructed_frame(const TexturedMotion& model, std::int64_t frame) {
-  BaseMap map{model.width, model.height, model.num_planes, {}};
-  for (const Cable& cable : model.cables) {
-    if (!cable.covers(frame)) continue;
-    map.bases.push_back(cable.at(frame));
-    for (const std::vector<Base>& coil : cable.coils)
-      map.bases.push_back(coil[static_cast<std::size_t>(frame - cable.first_frame)]);
-  }
-  return reconstruct(map, model.background);
+  return reconstruct(bases_in_frame(model.cables, frame, model.width, model.height, model.num_planes),
+                     model.background);
 }
 
 std::string short_number(double value) {

@@ -4,22 +4,11 @@
 #include "motex/core/files.h"
 #include "motex/particles/track_score.h"
 #include "motex/project/track_csv.h"
+#include "particles_model.h"
 #include "text_table.h"
 
 namespace motex::cli {
 namespace {
-
-/// "320x240" or "320,240".
-std::pair<int, int> parse_size(const std::string& text) {
-  if (text.empty()) return {0, 0};
-  const std::size_t mark = text.find_first_of("x,");
-  if (mark == std::string::npos) throw InvalidInput("--size: write width x height, as in 320x240, not " + text);
-  std::pair<int, int> size;
-  parse_value("--size", text.substr(0, mark), size.first);
-  parse_value("--size", text.substr(mark + 1), size.second);
-  if (size.first < 1 || size.second < 1) throw InvalidInput("--size: width and height are at least 1");
-  return size;
-}
 
 struct Score {
   std::string truth_path, tracks_path, size_text;
@@ -33,7 +22,7 @@ struct Score {
   }
 
   void run(Session& session) {
-    const auto [width, height] = parse_size(size_text);
+    const auto [width, height] = size_text.empty() ? std::pair(0, 0) : parse_picture_size(size_text);
     if (!(gate > 0 && gate < 1e6)) throw InvalidInput("--gate: a distance above 0 pixels");
     const auto read = [&, w = width, h = height](const std::string& path) {
       return visible_part(parse_tracks_csv(read_file(path), path), w, h);

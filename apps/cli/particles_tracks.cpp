@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 #include "commands.h"
 #include "motex/core/files.h"
 #include "motex/particles/cable_tracks.h"
+#include "motex/particles/link_cores.h"
 #include "motex/particles/track_score.h"
 #include "motex/project/textured_motion_file.h"
 #include "motex/project/track_csv.h"
@@ -48,20 +50,48 @@ std::string physical_csv(const std::vector<Track>& tracks, const TrackedClip& cl
   return text;
 }
 
+/// What is written: paths, and what is known of the clip.
+struct Followed {
+  std::vector<Track> tracks;
+  TexturedMotion model;  ///< without cables where points were linked; width 0 = nobody knows
+};
+
+/// Detections frame by frame from 0.
+std::vector<std::vector<TrackPoint>> by_frame(const std::vector<TrackPoint>& points, const std::string& name) {
+  constexpr std::int64_t kMostFrames = 1'000'000;
+  std::vector<std::vector<TrackPoint>> frames;
+  for (const TrackPoint& point : points) {
+    if (point.frame < 0 || point.frame >= kMostFrames)
+      throw InvalidInput(name + ": frame " + std::to_string(point.frame) + "; frames count from 0 to " +
+                         std::to_string(kMostFrames - 1));
+    const auto frame = static_cast<std::size_t>(point.frame);
+    if (frames.size() <= frame) frames.resize(frame + 1);
+    frames[frame].push_back(point);
+  }
+  if (frames.empty()) throw InvalidInput(name + ": has no point");
+  return frames;
+}
+
 struct Tracks {
-  std::string model_path, video;
+  std::string model_path, video, detections, size_text;
   std::vector<std::string> outputs;
   std::int64_t first_frame = 0;
   double pixel_size = 0, dt = 0;
 
   void declare(Arguments& arguments) {
-    arguments.positional("MODEL", "learned by `motex particles learn`", model_path);
+    arguments.positional("MODEL", "learned by `motex particles learn`; not needed with --detections", model_path)
+        .required = false;
     Argument& output = arguments.value(
         "-o,--output", "FILE", "table .csv, TrackMate .xml, or a video of the tracks; may be repeated", outputs);
     output.required = true;
+    arguments.section("Linking points");
+    arguments.value("--detections", "CSV", "link these points (columns frame, x, y; amplitude, scale if known) instead",
+                    detections);
+    arguments.value("--size", "WxH", "of the picture that the points are from (default: the model's or the clip's)",
+                    size_text);
     arguments.section("Overlay video");
     arguments.value("--video", "CLIP", "draw over this clip (default: over what the model makes of it)", video);
-    arguments.value("--first-frame", "K", "frame of CLIP that is the model's frame 0 (default 0)", first_frame);
+    arguments.value("--first-frame", "K", "frame of CLIP that is frame 0 of the tracks (default 0)", first_frame);
     arguments.section("Units");
     arguments.value("--pixel-size", "UM", "micrometres a pixel: lengths in micrometres (default: pixels)", pixel_size);
     arguments.value("--dt", "SECS", "seconds a frame (default: those of the video that was learned)", dt);
@@ -69,17 +99,16 @@ struct Tracks {
 
   void run(Session& session) {
     check_request(session);
-    const TexturedMotion model = load_particles_model(model_path);
-    const std::vector<Track> tracks =
-        visible_part(tracks_of(model.cables, model.num_planes), model.width, model.height);
-    const TrackedClip clip = described(model);
-    if (session.flags.dry_run) return would_write(outputs, model.num_frames, session);
+    Value object;
+    const Followed followed = detections.empty() ? of_model() : of_points(object);
+    const TrackedClip clip = described(followed.model);
+    if (session.flags.dry_run) return would_write(outputs, followed.model.num_frames, session);
     for (std::size_t k = 0; k < outputs.size(); ++k) {
       const double share = static_cast<double>(k) / static_cast<double>(outputs.size());
-      write(outputs[k], model, tracks, clip, session.job(share, share + 1.0 / static_cast<double>(outputs.size())));
+      write(outputs[k], followed, clip, session.job(share, share + 1.0 / static_cast<double>(outputs.size())));
       session.say("wrote " + outputs[k]);
     }
-    report(tracks, clip, session);
+    report(followed.tracks, clip, object, session);
   }
 
  private:
@@ -88,11 +117,46 @@ struct Tracks {
     for (const std::string& extension : writable_video_extensions()) extensions.push_back(extension);
     check_outputs(outputs, extensions, session);
     const bool draws = std::any_of(outputs.begin(), outputs.end(), is_video);
+    if (model_path.empty() && detections.empty()) throw InvalidInput("name a MODEL, or points by --detections");
     if (!video.empty() && !draws) throw InvalidInput("--video: only for an overlay video, such as -o tracks.mp4");
+    if (draws && video.empty() && !detections.empty())
+      throw InvalidInput("linked points are drawn over a clip: name it by --video");
+    if (!size_text.empty() && detections.empty()) throw InvalidInput("--size: only with --detections");
     if (first_frame < 0) throw InvalidInput("--first-frame: frames count from 0");
     if (pixel_size != 0 && !(pixel_size > 0 && pixel_size < 1e9))
       throw InvalidInput("--pixel-size: micrometres a pixel, above 0");
     if (dt != 0 && !(dt > 0 && dt < 1e9)) throw InvalidInput("--dt: seconds a frame, above 0");
+  }
+
+  Followed of_model() const {
+    TexturedMotion model = load_particles_model(model_path);
+    std::vector<Track> tracks = visible_part(tracks_of(model.cables, model.num_planes), model.width, model.height);
+    return {std::move(tracks), std::move(model)};
+  }
+
+  Followed of_points(Value& object) const {
+    Followed followed;
+    TexturedMotion& model = followed.model;
+    if (!model_path.empty()) model = load_particles_model(model_path);
+    if (!video.empty()) {
+      const VideoInfo info = VideoReader(video).info();
+      model.width = info.width;
+      model.height = info.height;
+      if (info.frames_per_sec > 0) model.frames_per_sec = info.frames_per_sec;
+    }
+    if (!size_text.empty()) std::tie(model.width, model.height) = parse_picture_size(size_text);
+    const auto frames = by_frame(parse_points_csv(read_file(detections), detections), detections);
+    model.num_frames = static_cast<std::int64_t>(frames.size());
+    LinkReport report;
+    followed.tracks =
+        visible_part(link_points(frames, model.width, model.height, {}, &report), model.width, model.height);
+    object["detections"] = detections;
+    object["dropped_detections"] = report.num_dropped;
+    object["filled_points"] = report.num_filled;
+    object["expected_wrong_share"] = report.expected_wrong_share;
+    object["velocity"] = Value::List{report.model.x.mean_velocity, report.model.y.mean_velocity};
+    object["persistence"] = Value::List{report.model.x.persistence, report.model.y.persistence};
+    return followed;
   }
 
   bool is_physical() const { return pixel_size > 0 || dt > 0; }
@@ -117,12 +181,13 @@ struct Tracks {
     return clip;
   }
 
-  void write(const std::string& path, const TexturedMotion& model, const std::vector<Track>& tracks,
-             const TrackedClip& clip, const JobContext& job) const {
-    if (is_video(path)) return write_overlay(path, model, tracks, job);
+  void write(const std::string& path, const Followed& followed, const TrackedClip& clip, const JobContext& job) const {
+    const std::vector<Track>& tracks = followed.tracks;
+    if (is_video(path)) return write_overlay(path, followed.model, tracks, job);
     if (extension_of(path) == ".xml")
       return write_file(path, is_simple_xml(path) ? trackmate_simple_xml(tracks, clip) : trackmate_xml(tracks, clip));
-    write_file(path, is_physical() ? physical_csv(tracks, clip) : tracks_csv(tracks, model.width, model.height));
+    constexpr int kAnySize = 1 << 30;  // the tracks are cut to the picture already
+    write_file(path, is_physical() ? physical_csv(tracks, clip) : tracks_csv(tracks, kAnySize, kAnySize));
   }
 
   void write_overlay(const std::string& path, const TexturedMotion& model, const std::vector<Track>& tracks,
@@ -150,13 +215,12 @@ struct Tracks {
     writer.finish();
   }
 
-  void report(const std::vector<Track>& tracks, const TrackedClip& clip, Session& session) const {
+  void report(const std::vector<Track>& tracks, const TrackedClip& clip, Value& object, Session& session) const {
     std::int64_t num_points = 0;
     for (const Track& track : tracks) num_points += static_cast<std::int64_t>(track.points.size());
     const double per_frame =
         static_cast<double>(num_points) / static_cast<double>(std::max<std::int64_t>(1, clip.num_frames));
-    Value object;
-    object["model"] = model_path;
+    if (!model_path.empty()) object["model"] = model_path;
     object["output"] = outputs;
     object["tracks"] = static_cast<std::int64_t>(tracks.size());
     object["points"] = num_points;
@@ -186,7 +250,8 @@ Command particles_tracks() {
        "table.",
        "motex particles tracks snow.motex -o snow.tracks.csv\n"
        "motex particles tracks snow.motex -o snow.csv -o snow.xml -o snow_tracks.mp4 --video snow.mp4\n"
-       "motex particles tracks cells.motex -o cells.xml --pixel-size 0.65 --dt 2"});
+       "motex particles tracks cells.motex -o cells.xml --pixel-size 0.65 --dt 2\n"
+       "motex particles tracks --detections spots.csv --size 320x240 -o spots.tracks.csv"});
 }
 
 }  // namespace motex::cli

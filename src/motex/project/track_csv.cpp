@@ -45,25 +45,18 @@ class TableReader {
   TableReader(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   std::vector<Track> read() {
-    std::string_view line;
-    while (next_line(line) && trimmed(line).empty()) {
-    }
-    read_heading(line);
+    read_heading(true);
     std::map<std::int64_t, Track> tracks;
-    while (next_line(line)) {
-      if (trimmed(line).empty() || line[0] == '#') continue;
-      const std::vector<std::string_view> words = split(line, separator_);
-      const auto id = whole(words, kId);
-      TrackPoint point;
-      point.frame = whole(words, kFrame);
-      point.x = number(words, kX);
-      point.y = number(words, kY);
-      if (places_[kAmplitude] >= 0) point.amplitude = number(words, kAmplitude);
-      if (places_[kScale] >= 0) point.scale = number(words, kScale);
-      if (places_[kAngle] >= 0) point.angle = number(words, kAngle);
-      tracks[id].points.push_back(point);
-    }
+    for (std::vector<std::string_view> words; next_row(words);)
+      tracks[whole(words, kId)].points.push_back(point_of(words));
     return sorted(tracks);
+  }
+
+  std::vector<TrackPoint> read_points() {
+    read_heading(false);
+    std::vector<TrackPoint> points;
+    for (std::vector<std::string_view> words; next_row(words);) points.push_back(point_of(words));
+    return points;
   }
 
  private:
@@ -80,7 +73,31 @@ class TableReader {
     return true;
   }
 
-  void read_heading(std::string_view line) {
+  bool next_row(std::vector<std::string_view>& words) {
+    std::string_view line;
+    while (next_line(line))
+      if (!trimmed(line).empty() && line[0] != '#') {
+        words = split(line, separator_);
+        return true;
+      }
+    return false;
+  }
+
+  TrackPoint point_of(const std::vector<std::string_view>& words) const {
+    TrackPoint point;
+    point.frame = whole(words, kFrame);
+    point.x = number(words, kX);
+    point.y = number(words, kY);
+    if (places_[kAmplitude] >= 0) point.amplitude = number(words, kAmplitude);
+    if (places_[kScale] >= 0) point.scale = number(words, kScale);
+    if (places_[kAngle] >= 0) point.angle = number(words, kAngle);
+    return point;
+  }
+
+  void read_heading(bool needs_track) {
+    std::string_view line;
+    while (next_line(line) && trimmed(line).empty()) {
+    }
     for (const char separator : {',', ';', '\t'})
       if (line.find(separator) != std::string_view::npos) {
         separator_ = separator;
@@ -97,9 +114,9 @@ class TableReader {
         if (const auto found = std::find(heading.begin(), heading.end(), known);
             found != heading.end() && places_[column] < 0)
           places_[column] = static_cast<int>(found - heading.begin());
-      if (column < kNumNeeded && places_[column] < 0)
-        fail("the heading has no column '" + std::string(kNames[column][0]) +
-             "'; frame, track (or id), x, y are needed");
+      if (column < kNumNeeded && places_[column] < 0 && (needs_track || column != kId))
+        fail("the heading has no column '" + std::string(kNames[column][0]) + "'; frame, " +
+             (needs_track ? "track (or id), " : "") + "x, y are needed");
     }
   }
 
@@ -146,6 +163,10 @@ class TableReader {
 
 std::vector<Track> parse_tracks_csv(std::string_view text, const std::string& name) {
   return TableReader(text, name).read();
+}
+
+std::vector<TrackPoint> parse_points_csv(std::string_view text, const std::string& name) {
+  return TableReader(text, name).read_points();
 }
 
 void TrackCsv::append(std::int64_t track, const TrackPoint& point, std::string& text) {

@@ -17,6 +17,10 @@ namespace motex {
 /// frame. name: for messages.
 std::vector<Track> parse_tracks_csv(std::string_view text, const std::string& name);
 
+/// Detections from such a table: no column for the track is needed, and one that is there is passed over. Rows in the
+/// order of the file.
+std::vector<TrackPoint> parse_points_csv(std::string_view text, const std::string& name);
+
 /// Table of tracks as parse_tracks_csv() reads it, made row by row: columns track, frame, x, y, scale, angle,
 /// amplitude; pixels, radians, grey levels; four decimals. Only points whose centre lies inside the picture,
 /// −½ ≤ x < width − ½, stand in it.

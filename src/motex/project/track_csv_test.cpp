@@ -52,5 +52,14 @@ TEST(TrackCsv, WritesWhatItReadsAndOnlyWhatIsInThePicture) {
   EXPECT_EQ(tracks_csv({}, 10, 6), TrackCsv::heading());
 }
 
+TEST(TrackCsv, DetectionsNeedNoTrack) {
+  const std::vector<TrackPoint> points = parse_points_csv("y;frame;x;true_id\n1;0;2;5\n\n# x\n3;1;4;x\n", "d.csv");
+  ASSERT_EQ(points.size(), 2U);
+  EXPECT_EQ(points[1].frame, 1);
+  EXPECT_EQ(points[1].x, 4);
+  EXPECT_EQ(points[1].y, 3);
+  EXPECT_THROW(parse_points_csv("x,y\n1,2\n", "d.csv"), ParseError);
+}
+
 }  // namespace
 }  // namespace motex
