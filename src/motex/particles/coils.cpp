@@ -268,12 +268,6 @@ class CoilGrower {
 
 }  // namespace
 
-double luma_coefficient(const Base& base, int num_planes) {
-  if (num_planes < 3) return static_cast<double>(base.coefficients[0]);
-  return 0.299 * static_cast<double>(base.coefficients[0]) + 0.587 * static_cast<double>(base.coefficients[1]) +
-         0.114 * static_cast<double>(base.coefficients[2]);
-}
-
 std::vector<std::vector<char>> isolated_frames(const std::vector<Cable>& cables, double reach) {
   std::int64_t first = 0, end = 0;
   for (const Cable& cable : cables) {

@@ -7,6 +7,7 @@
 #include "motex/core/job.h"
 #include "motex/core/options.h"
 #include "motex/particles/cable.h"
+#include "motex/particles/cable_tracks.h"
 #include "motex/particles/clip_frames.h"
 
 namespace motex {
@@ -49,9 +50,6 @@ struct GrowCoilsReport {
 /// coefficients are replaced. Throws InvalidInput (sizes), Cancelled. Cost: 0.2 ms an element, frame and coil.
 GrowCoilsReport grow_coils(const ClipFrames& clip, const Planes& background, std::vector<Cable>& cables,
                            const GrowCoilsOptions& options = {}, const JobContext& job = {});
-
-/// α of the luma: the coefficient itself, or that mixture of three which is the luma of the colour.
-double luma_coefficient(const Base& base, int num_planes);
 
 /// For each cable and frame whether nothing else lies within reach: |distance| > reach · (scale + other scale).
 std::vector<std::vector<char>> isolated_frames(const std::vector<Cable>& cables, double reach);
