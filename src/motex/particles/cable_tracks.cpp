@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "motex/particles/cable_tracks.h"
 
-namespace motex {
+#include "motex/particles/coils.h"
 
-double luma_coefficient(const Base& base, int num_planes) {
-  if (num_planes == 1) return static_cast<double>(base.coefficients[0]);
-  return 0.299 * static_cast<double>(base.coefficients[0]) + 0.587 * static_cast<double>(base.coefficients[1]) +
-         0.114 * static_cast<double>(base.coefficients[2]);
-}
+namespace motex {
 
 std::vector<Track> tracks_of(const std::vector<Cable>& cables, int num_planes) {
   std::vector<Track> tracks;
