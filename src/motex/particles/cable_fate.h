@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "motex/core/rng.h"
+#include "motex/image/planes.h"
+#include "motex/particles/textured_motion.h"
+
+namespace motex {
+
+/// How a learned cable came and went, as far as the clip shows it.
+struct CableFate {
+  double vx = 0, vy = 0;              ///< mean velocity, pixels a frame
+  double start_vx = 0, start_vy = 0;  ///< of its first steps
+  bool birth_seen = false;            ///< not there in the clip's first frame
+  bool death_seen = false;            ///< not there in the clip's last frame
+  bool enters = false;                ///< a step before its first place it was outside: came over the border
+  bool leaves = false;                ///< likewise at its end
+  int side = 0;                       ///< over which border it came: 0 left, 1 top, 2 right, 3 bottom
+  bool in_burst = false;              ///< born together with others
+};
+
+std::vector<CableFate> fates_of(const TexturedMotion& model);
+
+/// Probability that an element dies before the next frame while it is inside the picture; leaving the picture is not
+/// part of it, because places tell that exactly. Deaths over presences, both under a Parzen window, by place or by age:
+/// whichever predicts the cables that it was not made from better.
+struct DeathLaw {
+  bool by_age = false;
+  double mean = 0;                    ///< deaths inside / presences
+  Plane by_place;                     ///< one value a cell of kCell × kCell pixels
+  std::vector<double> by_age_frames;  ///< [age]; later ages as the last one
+  static constexpr int kCell = 4;
+
+  double probability(double x, double y, std::int64_t age) const;
+};
+
+DeathLaw learn_death_law(const TexturedMotion& model, const std::vector<CableFate>& fates);
+/// Deaths where a map says so: its brightness shares out the deaths that the clip has a frame, those by leaving the
+/// picture included. map: size of the picture.
+DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map);
+
+/// A cable of the clip as an example of how elements come, what was not seen of it made up: where the clip cut it, it
+/// goes on at its velocity to the border, or ends inside as often as others do.
+struct BirthExample {
+  int cable = 0;
+  double x = 0, y = 0;    ///< of its birth; of one that enters, in the picture near the border
+  double vx = 0, vy = 0;  ///< there
+  bool enters = false;
+  int side = 0;
+  double residence = 1;      ///< L, frames
+  std::int64_t life = -1;    ///< L where it was cut off (an element that hardly moves); −1 = the death law decides
+  bool starts_like = false;  ///< it begins with the first velocity of the cable
+  double rate = 0;           ///< births a frame like it: ℓ/(T L) if ℓ of the clip's T frames show it (Little's law)
+};
+
+/// Those of bursts left out. Σ rate · L is the mean number of elements in a frame of the clip, and each kind of path
+/// has its share of it: censoring costs nothing, elements that were there from the first to the last frame count as
+/// much as they should.
+std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std::vector<CableFate>& fates,
+                                         const DeathLaw& deaths, Rng& rng);
+
+/// Bursts a frame like each one, by the same law: those that the clip cuts off count less than one in T.
+std::vector<double> burst_rates(const TexturedMotion& model, const std::vector<CableFate>& fates,
+                                const DeathLaw& deaths);
+
+}  // namespace motex

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "motex/core/job.h"
+#include "motex/particles/birth_process.h"
+#include "motex/particles/element.h"
+#include "motex/particles/synthesize.h"
+
+namespace motex {
+
+/// The elements that are alive in a frame of a synthesis, and how they become those of the next.
+class CableSynthesizer::Population {
+ public:
+  Population(const TexturedMotion& model, const SynthesizeParticlesOptions& options, std::int64_t loop_frames);
+
+  /// Lives through as many frames before frame 0 as it takes until nobody remembers the first ones; births are then as
+  /// many as keep the population as large as learned.
+  void settle(const JobContext& job);
+  void draw(MovetonFrame& frame);
+  void advance();
+  void insert(const InsertedElement& inserted);
+  const SynthesizeParticlesReport& report() const { return report_; }
+
+ private:
+  /// Coordinates of a cable other than places.
+  struct Series {
+    std::vector<double> log_scale, angle, amplitude;
+  };
+  const Series& series_of(int cable);
+
+  void start_at(std::int64_t frame, const BirthSettings& settings, const MotionEdit& motion);
+  void warm_up(const BirthSettings& settings, const MotionEdit& motion, const JobContext& job);
+  double calibrated_rate(const JobContext& job);
+  BirthSettings settings() const;
+
+  void be_born(std::vector<ElementBirth>& births);
+  void add(const ElementBirth& birth);
+  void start_motion(Element& element, const ElementBirth& birth);
+  void start_looks(Element& element, int cable);
+  void back_out(Element& element, int side);
+  void choose_looks(Element& element, int cable, int species);
+  const MovetonDynamics& law_of(int species) const;
+  bool samples_looks() const;
+  void move(Element& element);
+  /// Whether it is still there.
+  bool survives(Element& element);
+  bool is_inside(const Element& element) const;
+  bool is_in_sight(const Element& element) const;
+  double learned_per_frame(bool with_bursts) const;
+
+  const TexturedMotion& model_;
+  SynthesizeParticlesOptions options_;
+  const TexturedMotion& looks_model_;
+  std::int64_t loop_frames_;
+  Rng rng_;
+  std::vector<CableFate> fates_;
+  DeathLaw deaths_;
+  std::vector<BirthExample> examples_;
+  std::vector<double> burst_rates_;
+  std::vector<MovetonDynamics> laws_;  // one a species, the last for free bases
+  std::vector<int> looks_cables_;      // whose bases may be replayed where the looks are not the cable's own
+  std::map<int, Series> series_;
+  MotionEdit motion_;
+  bool draws_looks_ = true;
+  std::int64_t longest_life_ = 0;  // 0 = any
+
+  std::optional<BirthProcess> births_;
+  std::vector<Element> elements_;
+  std::vector<ElementBirth> new_births_, waiting_;  // waiting: bursts that go on
+  std::int64_t frame_ = 0, next_track_ = 0;
+  SynthesizeParticlesReport report_;
+};
+
+}  // namespace motex
