@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "motex/particles/cable_tracks.h"
 
-#include "motex/particles/coils.h"
-
 namespace motex {
+
+double luma_coefficient(const Base& base, int num_planes) {
+  if (num_planes < 3) return static_cast<double>(base.coefficients[0]);
+  return 0.299 * static_cast<double>(base.coefficients[0]) + 0.587 * static_cast<double>(base.coefficients[1]) +
+         0.114 * static_cast<double>(base.coefficients[2]);
+}
 
 std::vector<Track> tracks_of(const std::vector<Cable>& cables, int num_planes) {
   std::vector<Track> tracks;
