@@ -332,6 +332,7 @@ class ClusterSolver {
       const Eigen::Index row = n * static_cast<Eigen::Index>(k);
       Blob& blob = members_[k].blob;
       blob.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(row, row) + covariance(row + 1, row + 1))));
+      blob.log_scale_spread = std::sqrt(std::max(0.0, covariance(row + 2, row + 2)));
       blob.amplitude_spread = std::sqrt(std::max(0.0, covariance(row + n - 1, row + n - 1)));
     }
   }

@@ -18,7 +18,7 @@ struct Blob {
   double e1 = 0, e2 = 0;    ///< 0 = round
   double amplitude = 0;     ///< A, grey levels
   double place_spread = 0;  ///< deviation of x and y that the noise brings about in the joint fit, pixels
-  double amplitude_spread = 0;
+  double log_scale_spread = 0, amplitude_spread = 0;
 
   double scale() const;
   double aspect() const;  ///< e^e ≥ 1: length by breadth

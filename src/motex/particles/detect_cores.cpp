@@ -94,7 +94,7 @@ class Detector {
                         options_.min_significance * noise_, options_.sign == CoreSign::kBoth);
     for (const BlobPeak& peak : peaks) {
       if (is_shadowed(peak, num_before)) continue;
-      fitter_.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude, 0, 0});
+      fitter_.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude});
     }
     return fitter_.blobs().size() > num_before;
   }
@@ -227,7 +227,7 @@ std::vector<Blob> outstanding(const Plane& residual, double noise, const DetectO
     for (const Blob& other : fitter.blobs())
       is_near = is_near || std::hypot(other.x - peak.x, other.y - peak.y) < 2 * std::max(other.scale(), peak.scale);
     if (!is_near && fitter.blobs().size() < 200)
-      fitter.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude, 0, 0});
+      fitter.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude});
   }
   fitter.fit(2);
   std::vector<double> energies;

@@ -31,21 +31,21 @@ void ElementFilter::advance(Axis& a, const AxisModel& model, int num_frames) {
   }
 }
 
-double ElementFilter::start(Level& level, const LevelModel& model, double value) {
+double ElementFilter::start(Level& level, const LevelModel& model, double value, double extra) {
   if (model.variance <= 0) return 0;
-  const double total = model.variance + model.noise_variance, gain = model.variance / total;
+  const double total = model.variance + model.noise_variance + extra, gain = model.variance / total;
   const double off = value - model.mean;
   level.value = model.mean + gain * off;
   level.variance = model.variance * (1 - gain);
   return -0.5 * (kLogTwoPi + std::log(total) + bounded_square(off * off / total, kLevelOutlier));
 }
 
-double ElementFilter::follow(Level& level, const LevelModel& model, double value, int num_frames) {
+double ElementFilter::follow(Level& level, const LevelModel& model, double value, double extra, int num_frames) {
   if (model.variance <= 0) return 0;
   level.variance += num_frames * model.step_variance;
-  const double total = level.variance + model.noise_variance;
+  const double noise = model.noise_variance + extra, total = level.variance + noise;
   const double off = value - level.value, square = off * off / total;
-  const double gain = level.variance / (level.variance + model.noise_variance * std::max(1.0, square / kLevelOutlier));
+  const double gain = level.variance / (level.variance + noise * std::max(1.0, square / kLevelOutlier));
   level.value += gain * off;
   level.variance *= 1 - gain;
   return -0.5 * (kLogTwoPi + std::log(total) + bounded_square(square, kLevelOutlier));
@@ -58,8 +58,8 @@ double ElementFilter::start(const Sight& sight) {
   };
   begin(x_, model_->x, sight.x);
   begin(y_, model_->y, sight.y);
-  return start(amplitude_, model_->log_amplitude, sight.log_amplitude) +
-         start(scale_, model_->log_scale, sight.log_scale);
+  return start(amplitude_, model_->log_amplitude, sight.log_amplitude, sight.log_amplitude_variance) +
+         start(scale_, model_->log_scale, sight.log_scale, sight.log_scale_variance);
 }
 
 double ElementFilter::follow(Axis& a, const AxisModel& model, double value, double extra, double inflation) {
@@ -85,8 +85,8 @@ double ElementFilter::follow(const Sight& sight) {
   follow(x_, model_->x, sight.x, sight.place_variance, inflation);
   follow(y_, model_->y, sight.y, sight.place_variance, inflation);
   return -kLogTwoPi - 0.5 * (std::log(area) + bounded_square(square, kOutlierDistance)) +
-         follow(amplitude_, model_->log_amplitude, sight.log_amplitude, num) +
-         follow(scale_, model_->log_scale, sight.log_scale, num);
+         follow(amplitude_, model_->log_amplitude, sight.log_amplitude, sight.log_amplitude_variance, num) +
+         follow(scale_, model_->log_scale, sight.log_scale, sight.log_scale_variance, num);
 }
 
 double ElementFilter::distance(const Sight& sight) const {

@@ -38,7 +38,9 @@ struct ElementModel {
 struct Sight {
   double x = 0, y = 0;
   double log_amplitude = 0, log_scale = 0;
-  double place_variance = 0;  ///< of x and y, beyond the model's; 0 = no more than that
+  // Variances of this sight beyond those of the model; 0 = no more than those.
+  double place_variance = 0;  ///< of x and y each
+  double log_amplitude_variance = 0, log_scale_variance = 0;
   int frame = 0;
 };
 
@@ -69,8 +71,8 @@ class ElementFilter {
   };
   static void advance(Axis& axis, const AxisModel& model, int num_frames);
   static double follow(Axis& axis, const AxisModel& model, double value, double extra_variance, double inflation);
-  static double start(Level& level, const LevelModel& model, double value);
-  static double follow(Level& level, const LevelModel& model, double value, int num_frames);
+  static double start(Level& level, const LevelModel& model, double value, double extra_variance);
+  static double follow(Level& level, const LevelModel& model, double value, double extra_variance, int num_frames);
 
   const ElementModel* model_;
   Axis x_, y_;

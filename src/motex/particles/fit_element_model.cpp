@@ -141,8 +141,9 @@ AxisModel fit_axis(const AxisLikelihood& likelihood, AxisModel model) {
 }
 
 /// Variances of a level from mean squared differences one and two sights apart: q + 2r and 2q + 2r a frame.
-LevelModel fit_level(const std::vector<std::vector<Sight>>& paths, double Sight::*value, const LevelModel& before) {
-  std::vector<double> means, near, far;
+LevelModel fit_level(const std::vector<std::vector<Sight>>& paths, double Sight::*value, double Sight::*variance,
+                     const LevelModel& before) {
+  std::vector<double> means, near, far, known;
   for (const auto& path : paths) {
     if (path.size() < 3) continue;
     double sum = 0;
@@ -151,6 +152,7 @@ LevelModel fit_level(const std::vector<std::vector<Sight>>& paths, double Sight:
     for (std::size_t i = 2; i < path.size(); ++i) {
       const double d1 = path[i].*value - path[i - 1].*value, d2 = path[i].*value - path[i - 2].*value;
       near.push_back(d1 * d1);
+      known.push_back(path[i].*variance + path[i - 1].*variance);
       far.push_back(d2 * d2);
     }
   }
@@ -161,14 +163,14 @@ LevelModel fit_level(const std::vector<std::vector<Sight>>& paths, double Sight:
     std::nth_element(squares.begin(), middle, squares.end());
     return std::max(*middle / 0.455, 1e-8);
   };
-  const double one = typical(near), two = typical(far);
+  const double one = typical(near), two = typical(far), own = 0.455 * typical(known);
   LevelModel model;
   for (const double mean : means) model.mean += mean / static_cast<double>(means.size());
   for (const double mean : means)
     model.variance += (mean - model.mean) * (mean - model.mean) / static_cast<double>(means.size());
   if (model.variance < 1e-6) return {};
   model.step_variance = std::clamp(two - one, 0.02 * one, one);
-  model.noise_variance = std::max(0.5 * (one - model.step_variance), 1e-5);
+  model.noise_variance = std::max(0.5 * (one - model.step_variance - own), 0.1 * one);
   return model;
 }
 
@@ -191,8 +193,8 @@ ElementModel fit_element_model(const std::vector<std::vector<Sight>>& paths, con
   ElementModel model = before;
   model.x = fit_axis(AxisLikelihood(paths, &Sight::x), before.x);
   model.y = fit_axis(AxisLikelihood(paths, &Sight::y), before.y);
-  model.log_amplitude = fit_level(paths, &Sight::log_amplitude, before.log_amplitude);
-  model.log_scale = fit_level(paths, &Sight::log_scale, before.log_scale);
+  model.log_amplitude = fit_level(paths, &Sight::log_amplitude, &Sight::log_amplitude_variance, before.log_amplitude);
+  model.log_scale = fit_level(paths, &Sight::log_scale, &Sight::log_scale_variance, before.log_scale);
   double singles = 0, sights = 0, span = 0, births = 0, entries = 0, deaths = 0, at_risk = 0;
   for (const auto& path : paths) {
     if (path.size() == 1) ++singles;

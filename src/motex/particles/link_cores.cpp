@@ -19,7 +19,7 @@ using SightFrames = std::vector<std::vector<Sight>>;
 Sight sight_of(double x, double y, double amplitude, double scale, std::size_t frame) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(amplitude) || !std::isfinite(scale))
     throw InvalidInput("a detection in frame " + std::to_string(frame) + " is not a finite number");
-  return {x, y, std::log(std::max(std::abs(amplitude), 1e-6)), std::log(std::max(scale, 1e-6)), 0,
+  return {x, y, std::log(std::max(std::abs(amplitude), 1e-6)), std::log(std::max(scale, 1e-6)), 0, 0, 0,
           static_cast<int>(frame)};
 }
 

@@ -32,12 +32,23 @@ Plane minus(Plane a, const Plane& b) {
   return a;
 }
 
+Sight sight_of(const Blob& blob, int frame) {
+  const double amplitude = std::max(std::abs(blob.amplitude), 1e-6), relative = blob.amplitude_spread / amplitude;
+  return {blob.x,
+          blob.y,
+          std::log(amplitude),
+          blob.log_scale,
+          blob.place_spread * blob.place_spread,
+          relative * relative,
+          blob.log_scale_spread * blob.log_scale_spread,
+          frame};
+}
+
 std::vector<std::vector<Sight>> sights_of(const BlobFrames& blobs) {
   std::vector<std::vector<Sight>> sights(blobs.size());
   for (std::size_t t = 0; t < blobs.size(); ++t)
     for (const Blob& blob : blobs[t])
-      sights[t].push_back({blob.x, blob.y, std::log(std::max(std::abs(blob.amplitude), 1e-6)), blob.log_scale,
-                           blob.place_spread * blob.place_spread, static_cast<int>(t)});
+      sights[t].push_back(sight_of(blob, static_cast<int>(t)));
   return sights;
 }
 
