@@ -10,6 +10,7 @@
 #include "motex/particles/clip_background.h"
 #include "motex/particles/coils.h"
 #include "motex/particles/fit_dynamics.h"
+#include "motex/particles/templates.h"
 #include "motex/particles/track_elements.h"
 
 namespace motex {
@@ -35,7 +36,8 @@ class Learning {
   LearnedTexturedMotion run() {
     find_cables();
     grow();
-    describe();
+    describe_cables();
+    describe_clip();
     return std::move(learned_);
   }
 
@@ -67,7 +69,31 @@ class Learning {
     background_.refresh(clip_, model().cables, job_);
   }
 
-  void describe() {
+  /// Species, their poses and dynamics; sources and sinks.
+  void describe_cables() {
+    TexturedMotion& out = model();
+    LearnTemplatesOptions template_options;
+    template_options.seed = options_.seed;
+    out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.9, 0.95));
+    for (std::size_t k = 0; k < out.templates.size(); ++k) out.dynamics.push_back(dynamics_of(static_cast<int>(k)));
+    out.maps = estimate_maps(out.cables, clip_.width, clip_.height, clip_.num_frames());
+  }
+
+  MovetonDynamics dynamics_of(int species) {
+    std::vector<Cable> cores;
+    for (const Cable& cable : model().cables) {
+      if (cable.species != species) continue;
+      Cable& one = cores.emplace_back();
+      one.first_frame = cable.first_frame;
+      one.core = cable.core;
+      for (Base& base : one.core) base.coefficients[0] = static_cast<float>(luma_coefficient(base, clip_.num_planes()));
+    }
+    FitDynamicsOptions fit_options;
+    fit_options.estimate_errors = !sampled_;
+    return fit_dynamics(cores, fit_options);
+  }
+
+  void describe_clip() {
     TexturedMotion& out = model();
     out.width = clip_.width;
     out.height = clip_.height;
@@ -94,6 +120,7 @@ class Learning {
   const JobContext& job_;
   ClipBackground background_;
   LearnedTexturedMotion learned_;
+  bool sampled_ = false;  ///< cables are a sample of the chain, not linked detections
 };
 
 }  // namespace
