@@ -20,6 +20,7 @@ constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest eleme
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
 constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
+constexpr double kGaussianMisfit = 0.04;   // up to that an element is a Gaussian, from twice that it has parts
 constexpr double kSuspicious = 2;         // deviations of the mean square of what a spot leaves
 constexpr double kSplitGain = 35;         // of the squared error in squared noises, for four more parameters
 constexpr double kAgreement = 0.4;        // of the amplitude expected: the frame agrees with a guess
@@ -37,12 +38,17 @@ Plane negated(Plane plane) {
   return plane;
 }
 
-/// Height of a spot twice as wide at (x, y): how far its neighbourhood reaches.
-double shadow(const Blob& blob, double x, double y) {
+/// Distance of (x, y) from a spot in its deviations.
+double distance_in(const Blob& blob, double x, double y) {
   const double c = std::cos(blob.angle()), s = std::sin(blob.angle()), e = std::hypot(blob.e1, blob.e2) / 2;
   const double dx = x - blob.x, dy = y - blob.y, along = dx * c + dy * s, across = dy * c - dx * s;
-  const double u = along / (2 * blob.scale() * std::exp(e)), v = across / (2 * blob.scale() * std::exp(-e));
-  return std::abs(blob.amplitude) * std::exp(-0.5 * (u * u + v * v));
+  return std::hypot(along / std::exp(e), across / std::exp(-e)) / blob.scale();
+}
+
+/// Height of a spot twice as wide at (x, y): how far its neighbourhood reaches.
+double shadow(const Blob& blob, double x, double y) {
+  const double distance = distance_in(blob, x, y) / 2;
+  return std::abs(blob.amplitude) * std::exp(-0.5 * distance * distance);
 }
 
 double energy_root(const Blob& blob) {
@@ -52,7 +58,10 @@ double energy_root(const Blob& blob) {
 class Detector {
  public:
   Detector(const Plane& residual, double noise, const DetectOptions& options)
-      : noise_(noise), options_(options), fitter_(residual, fit_options(noise, options)) {}
+      : noise_(noise),
+        options_(options),
+        fitter_(residual, fit_options(noise, options)),
+        structure_(std::clamp((options.shape_misfit - kGaussianMisfit) / kGaussianMisfit, 0.0, 1.0)) {}
 
   /// Those seen before first, then the guesses where what is left agrees with them.
   void expect(const std::vector<ExpectedBlob>& expected) {
@@ -102,10 +111,10 @@ class Detector {
   /// Too near to another new one, or no more than a stronger spot's misfit.
   bool is_shadowed(const BlobPeak& peak, std::size_t num_before) const {
     const std::vector<Blob>& blobs = fitter_.blobs();
-    const double least = std::max(kWeakRatio, 3 * options_.shape_misfit);
+    const double least = weakest_beside();
     for (std::size_t k = 0; k < blobs.size(); ++k) {
       const double distance = std::hypot(blobs[k].x - peak.x, blobs[k].y - peak.y);
-      if (k >= num_before && distance < 0.8 * std::max(blobs[k].scale(), peak.scale)) return true;
+      if (k >= num_before && distance < (0.8 + 1.7 * structure_) * std::max(blobs[k].scale(), peak.scale)) return true;
       if (k < num_before && std::abs(peak.amplitude) < least * shadow(blobs[k], peak.x, peak.y)) return true;
     }
     return false;
@@ -157,8 +166,9 @@ class Detector {
       if (distance > 6 * blobs[m].scale() * std::sqrt(blobs[m].aspect())) continue;
       if (distance < 0.3 * std::min(blob.scale(), blobs[m].scale())) return true;
       if (std::abs(blob.amplitude) <
-          std::max(kWeakRatio, 3 * options_.shape_misfit) * shadow(blobs[m], blob.x, blob.y))
+          weakest_beside() * shadow(blobs[m], blob.x, blob.y))
         return true;
+      if (distance_in(blobs[m], blob.x, blob.y) < 2.5 * structure_) return true;
     }
     return false;
   }
@@ -183,9 +193,13 @@ class Detector {
     return energy > 0.5 ? product / energy : 0;
   }
 
+  /// Of the height of a stronger one's shadow: less is a part of that.
+  double weakest_beside() const { return std::max(kWeakRatio, 5 * options_.shape_misfit); }
+
   double noise_;
   DetectOptions options_;
   BlobFitter fitter_;
+  double structure_;  ///< 0 = elements are Gaussian, 1 = they have parts: none near a stronger one
   bool has_expected_ = false;
 };
 

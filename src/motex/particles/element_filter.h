@@ -30,7 +30,8 @@ struct ElementModel {
   double births = 1e-4;   ///< inside the picture, a pixel and frame
   double entries = 1e-3;  ///< within a step of its edges, likewise
   double clutter = 1e-5;  ///< sights of nothing, a pixel and frame
-  double seen = 0.95;     ///< probability that an element is seen in a frame
+  double seen = 0.95;     ///< probability that an element is seen in a frame after one in which it was
+  double hidden = 0.5;    ///< probability that an element that is not seen is not seen in the next frame either
   double death = 0.02;    ///< probability a frame
 };
 

@@ -195,12 +195,16 @@ ElementModel fit_element_model(const std::vector<std::vector<Sight>>& paths, con
   model.y = fit_axis(AxisLikelihood(paths, &Sight::y), before.y);
   model.log_amplitude = fit_level(paths, &Sight::log_amplitude, &Sight::log_amplitude_variance, before.log_amplitude);
   model.log_scale = fit_level(paths, &Sight::log_scale, &Sight::log_scale_variance, before.log_scale);
-  double singles = 0, sights = 0, span = 0, births = 0, entries = 0, deaths = 0, at_risk = 0;
+  double singles = 0, sights = 0, gaps = 0, missed = 0, births = 0, entries = 0, deaths = 0, at_risk = 0;
   for (const auto& path : paths) {
     if (path.size() == 1) ++singles;
     if (path.size() < 3) continue;
     sights += static_cast<double>(path.size());
-    span += path.back().frame - path.front().frame + 1;
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const int gap = path[i].frame - path[i - 1].frame - 1;
+      missed += gap;
+      if (gap > 0) ++gaps;
+    }
     for (const Sight& sight : path)
       if (!edges.is_leaving(model, sight.x, sight.y)) ++at_risk;
     if (path.front().frame > 0) ++(edges.is_entering(model, path.front().x, path.front().y) ? entries : births);
@@ -214,7 +218,8 @@ ElementModel fit_element_model(const std::vector<std::vector<Sight>>& paths, con
   model.births = (births + 1) / volume;
   model.entries = std::max(model.births, (entries + 1) / edge_volume);
   model.clutter = (singles + 1) / volume;
-  model.seen = std::clamp(sights / span, 0.5, 0.999);
+  model.seen = std::clamp(1 - (gaps + 1) / (sights + 2), 0.5, 0.999);
+  model.hidden = std::clamp((missed - gaps + 2) / (missed + 4), 0.2, 0.85);
   model.death = std::clamp((deaths + 1) / (at_risk + 2), 1e-4, 0.5);
   return model;
 }

@@ -14,7 +14,7 @@
 namespace motex {
 
 struct LinkOptions {
-  int max_gap = 3;
+  int max_gap = 6;
   int min_frames = 3;
   double max_speed = 0;
   int sweeps = 4;

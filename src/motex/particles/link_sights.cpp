@@ -91,14 +91,19 @@ class Linker {
     return filter;
   }
 
+  /// ln probability of living on and not being seen for that many frames in between.
+  double log_gap(int gap) const {
+    const double alive = (gap + 1) * std::log(1 - model_.death);
+    if (gap == 0) return alive + std::log(model_.seen);
+    return alive + std::log(1 - model_.seen) + (gap - 1) * std::log(model_.hidden) + std::log(1 - model_.hidden);
+  }
+
   /// ln density of the tail's first sights after what the filter has seen.
   double follow(ElementFilter filter, int tail) const {
-    const double step = std::log(model_.seen) + std::log(1 - model_.death),
-                 miss = std::log(1 - model_.seen) + std::log(1 - model_.death);
     double sum = 0;
     for (int k = 0, id = tail; k < kForesight && id >= 0; ++k, id = next(id)) {
       const int gap = at(id).frame - filter.frame() - 1;
-      sum += filter.follow(at(id)) + step + gap * miss;
+      sum += filter.follow(at(id)) + log_gap(gap);
     }
     return sum;
   }
@@ -109,12 +114,10 @@ class Linker {
     const double first = filter.start(at(tail));
     const int second = next(tail);
     if (second < 0) return first;
-    const double step = std::log(model_.seen) + std::log(1 - model_.death),
-                 miss = std::log(1 - model_.seen) + std::log(1 - model_.death);
     double sum = first;
     for (int k = 1, id = second; k < kForesight && id >= 0; ++k, id = next(id)) {
       const int gap = at(id).frame - filter.frame() - 1;
-      sum += filter.follow(at(id)) + step + gap * miss;
+      sum += filter.follow(at(id)) + log_gap(gap);
     }
     return sum;
   }

@@ -10,7 +10,7 @@ namespace motex {
 
 struct LinkSightsOptions {
   int width = 0, height = 0;  ///< of the picture; 0 = unknown: the extent of the sights
-  int max_gap = 3;            ///< frames in a row in which an element may go unseen
+  int max_gap = 6;            ///< frames in a row in which an element may go unseen
   int sweeps = 4;
 };
 
