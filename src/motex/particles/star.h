@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <vector>
 
 #include "motex/core/rng.h"
@@ -46,19 +46,23 @@ StarModel fit_star(const std::vector<Plane>& frames, const FlowField& flow, cons
 /// frame take their own expectation.
 Plane predict_star(const StarModel& model, const std::vector<Plane>& past);
 
+class StarGrid;
+
 /// Endless frames of the model.
 class StarSampler {
  public:
   StarSampler(StarModel model, std::uint64_t seed);
+  ~StarSampler();
+  StarSampler(StarSampler&&) noexcept;
+  StarSampler& operator=(StarSampler&&) noexcept;
   /// mean + deviation · z, clipped nowhere.
   const Plane& next();
-  /// z of the frame given last.
-  const Plane& state() const { return past_.front(); }
 
  private:
   StarModel model_;
+  std::unique_ptr<StarGrid> grid_;
   Rng rng_;
-  std::deque<Plane> past_;  ///< z of the last frames, newest first
+  std::vector<std::vector<float>> past_;  ///< z of the last frames with a margin, newest first
   Plane shown_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "motex/particles/cable.h"
 #include "motex/particles/moveton_dynamics.h"
 #include "motex/particles/moveton_template.h"
+#include "motex/particles/water_model.h"
 
 namespace motex {
 
@@ -39,6 +41,8 @@ struct TexturedMotion {
   std::vector<MovetonDynamics> dynamics;   ///< one a template
   BirthDeathMaps maps;
   std::vector<Cable> cables;  ///< W
+
+  std::optional<WaterModel> water;  ///< of water, whose cables are carried bases
 };
 
 }  // namespace motex
