@@ -131,24 +131,24 @@ PointCounts occupied(std::span<const Cable> cables, const BirthDeathMaps& maps, 
   return counts;
 }
 
-/// (D + κ h̄) / (O + κ) with both taken over the window's area.
-Plane hazard_of(const Plane& deaths, const Plane& elements, double bandwidth, double prior_deaths) {
-  double num_deaths = 0, num_elements = 0;
-  for (const float value : deaths.values) num_deaths += static_cast<double>(value);
-  for (const float value : elements.values) num_elements += static_cast<double>(value);
-  Plane hazard(deaths.width, deaths.height);
-  if (num_deaths <= 0 || num_elements <= 0) return hazard;
-  const double mean = std::min(1.0, num_deaths / num_elements), area = 4 * std::numbers::pi * bandwidth * bandwidth;
-  for (std::size_t i = 0; i < hazard.values.size(); ++i) {
-    const double d = area * static_cast<double>(deaths.values[i]), n = area * static_cast<double>(elements.values[i]);
-    hazard.values[i] = static_cast<float>(std::clamp((d + prior_deaths) / (n + prior_deaths / mean), 0.0, 1.0));
+/// (D + κ h′) / (O + κ) with both taken over the window's area and h′ from a window four times as wide.
+Plane hazard_of(const PointCounts& deaths, const PointCounts& elements, double bandwidth, double prior_elements) {
+  const int width = deaths.counts().width, height = deaths.counts().height;
+  const double mean = elements.total() > 0 ? std::min(1.0, deaths.total() / elements.total()) : 0;
+  Plane hazard(width, height, static_cast<float>(mean));
+  if (mean == 0) return hazard;
+  std::vector<double> widths{std::max(bandwidth, 0.5)};
+  while (4 * widths.back() < std::max(width, height) / 4.0) widths.push_back(4 * widths.back());
+  for (std::size_t level = widths.size(); level-- > 0;) {
+    const double area = 4 * std::numbers::pi * widths[level] * widths[level];
+    const Plane d = parzen_smooth(deaths.counts(), widths[level]), n = parzen_smooth(elements.counts(), widths[level]);
+    for (std::size_t i = 0; i < hazard.values.size(); ++i) {
+      const double wider = hazard.values[i], dead = area * static_cast<double>(d.values[i]);
+      const double there = std::max(dead, area * static_cast<double>(n.values[i]));
+      hazard.values[i] = static_cast<float>((dead + prior_elements * wider) / (there + prior_elements));
+    }
   }
   return hazard;
-}
-
-/// Frames after which a death could be seen.
-double frames_at_risk(std::int64_t num_frames) {
-  return static_cast<double>(std::max<std::int64_t>(1, num_frames - 1));
 }
 
 }  // namespace
@@ -172,27 +172,25 @@ BirthDeathMaps estimate_maps(std::span<const Cable> cables, int width, int heigh
   leave_bursts_out(maps, cables.size());
   if (options.bridge_gaps) bridge_gaps(cables, maps, num_frames);
 
-  const double seen = frames_at_risk(num_frames);
-  maps.births_per_frame = static_cast<double>(maps.births.size()) / seen;
-  maps.bursts_per_frame = static_cast<double>(maps.bursts.size()) / seen;
+  const auto later_frames = static_cast<double>(std::max<std::int64_t>(1, num_frames - 1));
+  maps.births_per_frame = static_cast<double>(maps.births.size()) / later_frames;
+  maps.bursts_per_frame = static_cast<double>(maps.bursts.size()) / later_frames;
   const PointCounts births = counts_of(maps.births, width, height), deaths = counts_of(maps.deaths, width, height);
   const PointCounts elements = occupied(cables, maps, num_frames);
   maps.bandwidth = options.bandwidth > 0 ? options.bandwidth : choose_bandwidth({&births, &deaths});
   maps.source = scaled(parzen_smooth(births.counts(), maps.bandwidth), births.total() > 0 ? 1 / births.total() : 0);
   maps.sink = scaled(parzen_smooth(deaths.counts(), maps.bandwidth), deaths.total() > 0 ? 1 / deaths.total() : 0);
   maps.occupancy = scaled(parzen_smooth(elements.counts(), maps.bandwidth), 1 / static_cast<double>(num_frames));
-  maps.hazard =
-      hazard_of(scaled(maps.sink, deaths.total()), scaled(maps.occupancy, seen), maps.bandwidth, options.prior_deaths);
+  maps.hazard = hazard_of(deaths, occupied(cables, maps, num_frames - 1), maps.bandwidth, options.prior_elements);
   return maps;
 }
 
-Plane vanishing_hazard(const BirthDeathMaps& maps, std::int64_t num_frames, double prior_deaths) {
-  std::vector<CableEnd> vanished;
+Plane vanishing_hazard(const BirthDeathMaps& maps, std::span<const Cable> cables, std::int64_t num_frames,
+                       double prior_elements) {
+  PointCounts vanished(maps.width, maps.height);
   for (const CableEnd& death : maps.deaths)
-    if (inside(death.x + death.vx, death.y + death.vy, maps.width, maps.height)) vanished.push_back(death);
-  const PointCounts deaths = counts_of(vanished, maps.width, maps.height);
-  return hazard_of(parzen_smooth(deaths.counts(), maps.bandwidth), scaled(maps.occupancy, frames_at_risk(num_frames)),
-                   maps.bandwidth, prior_deaths);
+    if (inside(death.x + death.vx, death.y + death.vy, maps.width, maps.height)) vanished.add(death.x, death.y);
+  return hazard_of(vanished, occupied(cables, maps, num_frames - 1), maps.bandwidth, prior_elements);
 }
 
 }  // namespace motex

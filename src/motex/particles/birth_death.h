@@ -44,7 +44,7 @@ struct BirthDeathMaps {
 
 struct MapOptions {
   double bandwidth = 0;
-  double prior_deaths = 1;
+  double prior_elements = 4;
   bool bridge_gaps = true;
   bool find_bursts = true;
 
@@ -53,8 +53,9 @@ struct MapOptions {
     visit(Field{"bandwidth", "pixels",
                 "deviation of the Parzen window; auto = where each point is most likely given the others"},
           self.bandwidth, Range{0.5, 1000, true});
-    visit(Field{"prior_deaths", "deaths", "weight of the mean hazard where few elements pass"}, self.prior_deaths,
-          Range{0, 1e6});
+    visit(Field{"prior_elements", "elements",
+                "weight that the hazard of the wider surroundings has where few elements pass"},
+          self.prior_elements, Range{0.1, 1e6});
     visit(Field{"bridge_gaps", "", "a death that goes on as a birth a few frames later is neither"}, self.bridge_gaps,
           Range{});
     visit(Field{"find_bursts", "", "births that belong together are bursts, not births"}, self.find_bursts, Range{});
@@ -66,15 +67,16 @@ struct MapOptions {
 /// Births in the first and deaths in the last frame of the clip are not seen (censored). Parzen window with boundary
 /// correction, one bandwidth for all planes. Broken tracks: a death whose cable, carried on, meets a birth within
 /// five frames, where so many births at that place and time are improbable, is taken for a gap: both are left out.
-/// hazard = (D + κ h̄) / (O + κ): D, O = deaths and elements (the last frame's left out) within the window's area
-/// 4π bandwidth², h̄ = all deaths / all elements, κ = prior_deaths / h̄ elements.
-/// births_per_frame counts births in frames 1 … num_frames − 1. Throws InvalidInput unless sizes and num_frames are
-/// positive.
+/// hazard = (D + κ h′) / (O + κ): D, O = deaths and elements (the last frame's left out) within the window's area
+/// 4π bandwidth², κ = prior_elements, h′ = the same with a window four times as wide, and so on up to the whole
+/// picture. births_per_frame counts births in frames 1 … num_frames − 1. Throws InvalidInput unless sizes and
+/// num_frames are positive.
 BirthDeathMaps estimate_maps(std::span<const Cable> cables, int width, int height, std::int64_t num_frames,
                              const MapOptions& options = {});
 
 /// The hazard without leaving: of elements whose next place would still lie in the picture.
-Plane vanishing_hazard(const BirthDeathMaps& maps, std::int64_t num_frames, double prior_deaths = 1);
+Plane vanishing_hazard(const BirthDeathMaps& maps, std::span<const Cable> cables, std::int64_t num_frames,
+                       double prior_elements = 4);
 
 /// Maps as gray pictures that can be painted. A density (source, sink, occupancy) is scaled so that 255 is its largest
 /// value; read back, only proportions count: values are divided by their sum (source, sink) or multiplied so that the

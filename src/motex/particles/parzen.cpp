@@ -10,26 +10,32 @@ namespace {
 
 constexpr double kEvenShare = 0.05;
 
+/// Of distance 0, 1, …; both sides together sum to 1.
 std::vector<double> window(double bandwidth) {
   const int reach = static_cast<int>(std::ceil(4 * bandwidth));
   std::vector<double> weights;
-  for (int k = 0; k <= reach; ++k) weights.push_back(std::exp(-0.5 * k * k / (bandwidth * bandwidth)));
+  double sum = 0;
+  for (int k = 0; k <= reach; ++k) {
+    weights.push_back(std::exp(-0.5 * k * k / (bandwidth * bandwidth)));
+    sum += k == 0 ? 1 : 2 * weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
   return weights;
 }
 
-/// Sum of the window around each of n pixels in a row, inside the row.
-std::vector<double> mass_inside(const std::vector<double>& weights, int n) {
-  std::vector<double> mass(static_cast<std::size_t>(n));
-  const int reach = static_cast<int>(weights.size()) - 1;
-  for (int i = 0; i < n; ++i)
-    for (int j = std::max(0, i - reach); j <= std::min(n - 1, i + reach); ++j)
-      mass[static_cast<std::size_t>(i)] += weights[static_cast<std::size_t>(std::abs(i - j))];
-  return mass;
+/// Pixel that the place i stands for when the row of n pixels is mirrored at its ends again and again.
+int mirrored(int i, int n) {
+  const int period = 2 * n, rest = ((i % period) + period) % period;
+  return rest < n ? rest : period - 1 - rest;
 }
 
-/// Adds weight · source row to the target row.
-void add_row(const double* source, double weight, double* target, std::size_t n) {
-  for (std::size_t i = 0; i < n; ++i) target[i] += weight * source[i];
+/// What a point at i gets from itself and its mirror images.
+double own_weight(const std::vector<double>& weights, int i, int n) {
+  const int reach = static_cast<int>(weights.size()) - 1;
+  double sum = 0;
+  for (int k = -reach; k <= reach; ++k)
+    if (mirrored(i + k, n) == i) sum += weights[static_cast<std::size_t>(std::abs(k))];
+  return sum;
 }
 
 }  // namespace
@@ -50,25 +56,25 @@ Plane parzen_smooth(const Plane& counts, double bandwidth) {
   const std::vector<double> weights = window(bandwidth);
   const int reach = static_cast<int>(weights.size()) - 1, width = counts.width, height = counts.height;
   const auto columns = static_cast<std::size_t>(width);
-  const std::vector<double> mass_x = mass_inside(weights, width), mass_y = mass_inside(weights, height);
   std::vector<double> spread(columns * static_cast<std::size_t>(height));
   for (int y = 0; y < height; ++y) {  // along rows, from the pixels that hold something
     double* target = spread.data() + static_cast<std::size_t>(y) * columns;
     for (int x = 0; x < width; ++x) {
-      if (counts.at(x, y) == 0) continue;
-      const double value = static_cast<double>(counts.at(x, y)) / mass_x[static_cast<std::size_t>(x)];
-      for (int i = std::max(0, x - reach); i <= std::min(width - 1, x + reach); ++i)
-        target[i] += value * weights[static_cast<std::size_t>(std::abs(i - x))];
+      const double value = counts.at(x, y);
+      if (value == 0) continue;
+      for (int k = -reach; k <= reach; ++k)
+        target[mirrored(x + k, width)] += value * weights[static_cast<std::size_t>(std::abs(k))];
     }
   }
   Plane out(width, height);
   std::vector<double> row(columns);
   for (int y = 0; y < height; ++y) {
     std::fill(row.begin(), row.end(), 0.0);
-    for (int j = std::max(0, y - reach); j <= std::min(height - 1, y + reach); ++j)
-      add_row(spread.data() + static_cast<std::size_t>(j) * columns,
-              weights[static_cast<std::size_t>(std::abs(j - y))] / mass_y[static_cast<std::size_t>(j)], row.data(),
-              columns);
+    for (int k = -reach; k <= reach; ++k) {
+      const double* source = spread.data() + static_cast<std::size_t>(mirrored(y + k, height)) * columns;
+      const double weight = weights[static_cast<std::size_t>(std::abs(k))];
+      for (std::size_t x = 0; x < columns; ++x) row[x] += weight * source[x];
+    }
     for (int x = 0; x < width; ++x) out.at(x, y) = static_cast<float>(row[static_cast<std::size_t>(x)]);
   }
   return out;
@@ -81,14 +87,16 @@ double leave_one_out(const PointCounts& map, double bandwidth) {
   const Plane& counts = map.counts();
   const Plane smooth = parzen_smooth(counts, bandwidth);
   const std::vector<double> weights = window(bandwidth);
-  const std::vector<double> mass_x = mass_inside(weights, counts.width), mass_y = mass_inside(weights, counts.height);
+  std::vector<double> own_x, own_y;
+  for (int x = 0; x < counts.width; ++x) own_x.push_back(own_weight(weights, x, counts.width));
+  for (int y = 0; y < counts.height; ++y) own_y.push_back(own_weight(weights, y, counts.height));
   const double even = kEvenShare / static_cast<double>(counts.values.size());
   double sum = 0;
   for (int y = 0; y < counts.height; ++y) {
     for (int x = 0; x < counts.width; ++x) {
       const double count = counts.at(x, y);
       if (count == 0) continue;
-      const double own = 1 / (mass_x[static_cast<std::size_t>(x)] * mass_y[static_cast<std::size_t>(y)]);
+      const double own = own_x[static_cast<std::size_t>(x)] * own_y[static_cast<std::size_t>(y)];
       const double others = std::max(0.0, static_cast<double>(smooth.at(x, y)) - own) / (map.total() - 1);
       sum += count * std::log(even + (1 - kEvenShare) * others);
     }

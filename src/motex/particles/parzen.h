@@ -21,9 +21,8 @@ class PointCounts {
   double total_ = 0;
 };
 
-/// Parzen window: every count spread as a Gaussian of that deviation, each divided by the share of it that lies inside
-/// the picture, so that the sum stays and the border is not too dark. bandwidth 0 = as it is. Cost O(pixels ·
-/// bandwidth).
+/// Parzen window: every count spread as a Gaussian of that deviation, mirrored at the border, so that the sum stays and
+/// what is even stays even. bandwidth 0 = as it is. Cost O(pixels · bandwidth).
 Plane parzen_smooth(const Plane& counts, double bandwidth);
 
 /// The deviation, 1 … a quarter of the shorter side in steps of √2, under which each point is most likely given all
