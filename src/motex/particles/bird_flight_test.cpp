@@ -177,6 +177,17 @@ TEST(BirdPainter, ABirdFromAheadIsAsWideAsItsSpan) {
   EXPECT_EQ(view_bird(bird, 200, 200, 120, {}).alpha.size(), 0U);
 }
 
+TEST(BirdPainter, PortraitShowsTheStateOfTheWings) {
+  const auto highest = [](double inner) {
+    const Image image = bird_portrait({inner, 0, 0}, 80);
+    int y = 0;
+    while (y < 80 && std::all_of(&image.at(0, y), &image.at(0, y) + 80, [](const Rgba& p) { return p.a < 128; })) ++y;
+    return y;
+  };
+  EXPECT_GT(highest(-0.6), highest(0.7) + 8);
+  EXPECT_GT(highest(0.7), 0);
+}
+
 TEST(BirdPainter, PictureIsTheLayerOverTheBackground) {
   const TexturedMotion model = bird_model();
   BirdPainter painter(model, {Plane(400, 240, 190)}, 2);

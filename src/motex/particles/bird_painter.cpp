@@ -91,6 +91,20 @@ float light_on(const Vector3& a, const Vector3& b, const Vector3& c) {
   return kAmbient + (1 - kAmbient) * static_cast<float>(std::max(0.0, 0.5 + 0.5 * normal.dot(sun)));
 }
 
+void put_sprite(const BirdSprite& sprite, Image& image) {
+  for (int y = 0; y < sprite.height; ++y)
+    for (int x = 0; x < sprite.width; ++x) {
+      const std::size_t idx =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(sprite.width) + static_cast<std::size_t>(x);
+      const float alpha = sprite.alpha[idx];
+      if (alpha <= 0) continue;
+      const auto level = [&](std::size_t k) {
+        return static_cast<std::uint8_t>(std::clamp(sprite.colour[3 * idx + k] / alpha, 0.0F, 255.0F) + 0.5F);
+      };
+      blend(image.at(sprite.left + x, sprite.top + y), {level(0), level(1), level(2), 255}, static_cast<double>(alpha));
+    }
+}
+
 }  // namespace
 
 BirdSprite view_bird(const BirdPose& bird, double focal, int width, int height, const BirdColours& colours) {
@@ -136,6 +150,19 @@ BirdSprite view_bird(const BirdPose& bird, double focal, int width, int height, 
   return sprite;
 }
 
+Image bird_portrait(const WingPosture& wings, int side, const BirdColours& colours) {
+  constexpr double kElevation = 0.5, kDistance = 4;  // radians, wingspans
+  const Vector3 near(0, -std::sin(kElevation), std::cos(kElevation));
+  BirdPose bird;
+  bird.position = {0, 0, -kDistance};
+  bird.forward = (0.75 * Vector3(1, 0, 0) + 0.66 * near).normalized();
+  bird.up = {0, std::cos(kElevation), std::sin(kElevation)};
+  bird.wings = wings;
+  Image image(side, side, {0, 0, 0, 0});
+  put_sprite(view_bird(bird, kDistance * side, side, side, colours), image);
+  return image;
+}
+
 BirdPainter::BirdPainter(const TexturedMotion& model, Planes background, double magnification,
                          const BirdFlightOptions& options)
     : flock_(model, options), magnification_(magnification), background_(to_image(background)) {
@@ -171,19 +198,8 @@ void BirdPainter::paint(const MovetonFrame& frame, Image& picture, Image& layer)
   const double focal = flock_.focal() * magnification_;
   for (const BirdPose& bird : flock_.advance(frame)) {
     const BirdSprite sprite = view_bird(bird, focal, picture.width, picture.height, colours_of(bird.species));
-    for (int y = 0; y < sprite.height; ++y)
-      for (int x = 0; x < sprite.width; ++x) {
-        const std::size_t idx =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(sprite.width) + static_cast<std::size_t>(x);
-        const float alpha = sprite.alpha[idx];
-        if (alpha <= 0) continue;
-        const auto level = [&](std::size_t k) {
-          return static_cast<std::uint8_t>(std::clamp(sprite.colour[3 * idx + k] / alpha, 0.0F, 255.0F) + 0.5F);
-        };
-        const Rgba colour{level(0), level(1), level(2), 255};
-        blend(layer.at(sprite.left + x, sprite.top + y), colour, alpha);
-        blend(picture.at(sprite.left + x, sprite.top + y), colour, alpha);
-      }
+    put_sprite(sprite, layer);
+    put_sprite(sprite, picture);
   }
 }
 

@@ -28,6 +28,9 @@ struct BirdSprite {
 /// sample, 4 × 4 samples a pixel. focal: pixels. Empty when nothing of it is inside the picture.
 BirdSprite view_bird(const BirdPose& bird, double focal, int width, int height, const BirdColours& colours);
 
+/// One bird from above its right side, on a clear ground: what a state of the wings looks like ([TM02] Figure 6).
+Image bird_portrait(const WingPosture& wings, int side, const BirdColours& colours = {});
+
 /// Movetons of birds as 3-D birds ([TM02] Figure 6) instead of their bases: BirdFlock, drawn farthest first.
 class BirdPainter : public FramePainter {
  public:

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motex/particles/bird_painter.h"
+#include "motex/particles/clip_background.h"
+#include "motex/particles/frame_painter.h"
+#include "motex/particles/learn.h"
+#include "motex/particles/simulate.h"
+#include "motex/particles/synthesize.h"
+#include "motex/project/load_video_clip.h"
+
+/// Clips that the figures of [TM02] are made from, and their learned models.
+namespace motex::bench {
+
+struct Scene {
+  std::string what;  ///< "snow"
+  std::string name;  ///< the file, or "simulated"
+  ClipFrames clip;
+  TexturedMotion model;
+  TexturedMotion drops;  ///< of water: movetons as groups of bases
+  int least_path = 5;    ///< frames, of paths that are shown
+
+  int frame_of_column(int column, int num_columns) const {
+    return (2 * column + 1) * clip.num_frames() / (2 * num_columns);
+  }
+  int num_shown_paths() const {
+    int count = 0;
+    for (const Cable& cable : model.cables) count += cable.num_frames() >= least_path ? 1 : 0;
+    return count;
+  }
+};
+
+/// The first of the files that is there, from frame `first` on; "" when none is.
+inline std::filesystem::path find_clip(const std::filesystem::path& data, std::initializer_list<const char*> names) {
+  if (!data.empty())
+    for (const char* name : names)
+      for (const auto& path : {data / "textured" / name, data / name})
+        if (std::filesystem::is_regular_file(path)) return path;
+  return {};
+}
+
+inline void learn(Scene& scene, const LearnTexturedMotionOptions& options = {}) {
+  const auto start = std::chrono::steady_clock::now();
+  LearnedTexturedMotion learned = learn_textured_motion(scene.clip, options);
+  scene.model = std::move(learned.model);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  std::printf("%s (%s): %d frames, %zu cables, %zu templates, %.1f s\n", scene.what.c_str(), scene.name.c_str(),
+              scene.clip.num_frames(), scene.model.cables.size(), scene.model.templates.size(), took.count());
+}
+
+inline Scene make_scene(const std::string& what, const std::filesystem::path& path, int first, int num_frames,
+                        const auto& simulate) {
+  Scene scene;
+  scene.what = what;
+  if (path.empty()) {
+    scene.name = "simulated";
+    scene.clip = clip_frames_of(simulate());
+  } else {
+    scene.name = path.filename().string();
+    LoadVideoClipOptions load;
+    load.first_frame = first;
+    load.num_frames = num_frames;
+    scene.clip = load_video_clip(path, load);
+  }
+  return scene;
+}
+
+inline Scene snow_scene(const std::filesystem::path& data) {
+  Scene scene = make_scene("snow", find_clip(data, {"snow_forest_320x240.mp4"}), 0, 60, [] {
+    SimulateSnowOptions options;
+    options.frames = 60;
+    return simulate_snow(options);
+  });
+  learn(scene);
+  return scene;
+}
+
+inline Scene bird_scene(const std::filesystem::path& data) {
+  Scene scene = make_scene("birds", find_clip(data, {"birds_greenscreen_cg_480x270.mp4"}), 0, 0,
+                           [] { return simulate_birds({}); });
+  learn(scene);
+  return scene;
+}
+
+inline Scene firework_scene(const std::filesystem::path& data) {
+  Scene scene = make_scene("fireworks", find_clip(data, {"fireworks_repeat_480x270.mp4"}), 0, 0,
+                           [] { return simulate_fireworks({}); });
+  learn(scene);
+  return scene;
+}
+
+inline bool waterfall_scene(const std::filesystem::path& data, Scene& scene) {
+  const std::filesystem::path path = find_clip(data, {"waterfall_kjos_320x240.mp4"});
+  if (path.empty()) return false;
+  scene = make_scene("waterfall", path, 0, 60, [] { return SimulatedScene(); });
+  learn(scene);
+  scene.drops = scene.model;
+  return true;
+}
+
+/// Evenly over as many synthesized frames as the clip has.
+inline std::vector<Image> synthesized_pictures(const Scene& scene, const SynthesizeParticlesOptions& options,
+                                               int count) {
+  CableSynthesizer source(scene.model, options);
+  PhotoPainter painter(scene.model.background, 1);
+  std::vector<Image> pictures;
+  MovetonFrame frame;
+  Image picture, layer;
+  for (int t = 0; static_cast<int>(pictures.size()) < count && source.next_frame(frame); ++t) {
+    if (t != scene.frame_of_column(static_cast<int>(pictures.size()), count)) continue;
+    painter.paint(frame, picture, layer);
+    pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+/// The background with `magnification` pixels to one.
+inline Planes enlarged(const Planes& planes, int magnification) {
+  Planes out;
+  for (const Plane& plane : planes) {
+    Plane& large = out.emplace_back(plane.width * magnification, plane.height * magnification);
+    for (int y = 0; y < large.height; ++y)
+      for (int x = 0; x < large.width; ++x) large.at(x, y) = plane.at(x / magnification, y / magnification);
+  }
+  return out;
+}
+
+/// Synthesized birds as 3-D birds.
+inline std::vector<Image> pictures_in_space(const Scene& scene, int count, int magnification) {
+  CableSynthesizer source(scene.model, {});
+  BirdPainter painter(scene.model, enlarged(scene.model.background, magnification), magnification);
+  std::vector<Image> pictures;
+  MovetonFrame frame;
+  Image picture, layer;
+  for (int t = 0; static_cast<int>(pictures.size()) < count && source.next_frame(frame); ++t) {
+    painter.paint(frame, picture, layer);
+    if (t == scene.frame_of_column(static_cast<int>(pictures.size()), count)) pictures.push_back(picture);
+  }
+  return pictures;
+}
+
+/// Squares about elements of a species in a state, cut out of the clip: one a cable in turn, spread over its life.
+inline std::vector<Image> cut_outs(const Scene& scene, int species, int state, int count) {
+  double scale = 0, num = 0;
+  for (const Cable& cable : scene.model.cables)
+    if (cable.species == species)
+      for (const Base& core : cable.core) scale += core.scale, num += 1;
+  const int half = std::max(6, static_cast<int>(std::lround(5 * scale / std::max(1.0, num))));
+  std::vector<Image> out;
+  for (std::int64_t visit = 0; visit < 12 && static_cast<int>(out.size()) < count; ++visit)
+    for (const Cable& cable : scene.model.cables) {
+      if (cable.species != species || cable.poses.size() != cable.core.size()) continue;
+      std::int64_t seen = 0;
+      for (std::size_t t = 0; t < cable.core.size() && static_cast<int>(out.size()) < count; ++t) {
+        if (cable.poses[t] != state || seen++ != 3 * visit) continue;
+        const int left = static_cast<int>(std::lround(cable.core[t].x)) - half;
+        const int top = static_cast<int>(std::lround(cable.core[t].y)) - half;
+        const auto frame = static_cast<int>(cable.first_frame) + static_cast<int>(t);
+        if (left < 0 || top < 0 || left + 2 * half >= scene.clip.width || top + 2 * half >= scene.clip.height) continue;
+        out.push_back(crop(to_image(frame_planes(scene.clip, frame)), left, top, 2 * half + 1, 2 * half + 1));
+      }
+    }
+  return out;
+}
+
+}  // namespace motex::bench
