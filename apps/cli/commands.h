@@ -38,6 +38,8 @@ Command particles_score();
 Command particles_learn();
 Command particles_info();
 Command particles_tracks();
+Command particles_synthesize();
+Command particles_maps();
 Command particles_simulate_snow();
 Command particles_simulate_birds();
 Command particles_simulate_fireworks();

@@ -47,9 +47,14 @@ CommandTable make_table() {
       particles_learn(),
       particles_info(),
       particles_tracks(),
+      particles_synthesize(),
       particles_decompose(),
       particles_score(),
-      particles_simulate_snow(), particles_simulate_birds(), particles_simulate_fireworks(), doctor(),
+      particles_maps(),
+      particles_simulate_snow(),
+      particles_simulate_birds(),
+      particles_simulate_fireworks(),
+      doctor(),
   };
   // clang-format on
 }
