@@ -15,7 +15,9 @@ namespace motex {
 namespace {
 
 constexpr int kFewestFrames = 12;
-constexpr double kShown = 0.85;  // share of what moves that bases must show
+constexpr double kShown = 0.85;       // share of what moves that bases must show
+constexpr double kMostPeaked = 4.8;   // Σ m₄ / Σ m₂² of water
+constexpr double kLeastSteady = 0.4;  // of the motion of the liveliest third of the clip, in the stillest
 const std::vector<int> kNumbers{200, 400, 800, 1600, 3200};
 
 /// The mean, not the median: power-preserving weights of synthesis suit light whose mean is 0.
@@ -101,7 +103,45 @@ SteadyClip steadied(const ClipFrames& clip, const LearnWaterOptions& options, co
   return out;
 }
 
+/// Σ m₄ / Σ m₂² over the pixels, moments over time around the mean.
+double peakedness(const ClipFrames& clip) {
+  const std::size_t area = clip.luma[0].values.size();
+  const auto num = static_cast<double>(clip.num_frames());
+  std::vector<double> mean(area), second(area), fourth(area);
+  for (const Plane& frame : clip.luma)
+    for (std::size_t i = 0; i < area; ++i) mean[i] += static_cast<double>(frame.values[i]) / num;
+  for (const Plane& frame : clip.luma)
+    for (std::size_t i = 0; i < area; ++i) {
+      const double d = static_cast<double>(frame.values[i]) - mean[i];
+      second[i] += d * d / num;
+      fourth[i] += d * d * d * d / num;
+    }
+  double above = 0, below = 1e-9;
+  for (std::size_t i = 0; i < area; ++i) above += fourth[i], below += second[i] * second[i];
+  return above / below;
+}
+
+/// Energy of the differences between frames in the stillest third of the clip / in the liveliest.
+double steadiness(const ClipFrames& clip) {
+  double thirds[3] = {0, 0, 0};
+  const int num = clip.num_frames() - 1;
+  for (int t = 0; t < num; ++t) {
+    const std::vector<float>&a = clip.luma[static_cast<std::size_t>(t)].values,
+          &b = clip.luma[static_cast<std::size_t>(t) + 1].values;
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += static_cast<double>((b[i] - a[i]) * (b[i] - a[i]));
+    thirds[3 * t / num] += sum;
+  }
+  return *std::min_element(thirds, thirds + 3) / (*std::max_element(thirds, thirds + 3) + 1e-9);
+}
+
 }  // namespace
+
+bool looks_like_water(const ClipFrames& clip, const JobContext& job) {
+  if (clip.num_frames() < kFewestFrames || peakedness(clip) > kMostPeaked) return false;
+  const SteadyClip steady_clip = steady(clip, job);
+  return peakedness(steady_clip.clip) <= kMostPeaked && steadiness(steady_clip.clip) >= kLeastSteady;
+}
 
 LearnedWater learn_water(const ClipFrames& given, const LearnWaterOptions& options, const JobContext& job) {
   check_options(options);

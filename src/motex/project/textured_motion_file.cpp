@@ -10,6 +10,7 @@
 #include "motex/core/files.h"
 #include "motex/image/png.h"
 #include "motex/project/textured_motion_rows.h"
+#include "motex/project/water_model_file.h"
 
 namespace motex {
 namespace {
@@ -257,6 +258,7 @@ std::string textured_motion_bytes(const TexturedMotion& model) {
   write_templates(out, model);
   write_maps(out, model.maps);
   write_cables(out, model);
+  write_water(out, model);
   return out.bytes();
 }
 
@@ -271,6 +273,7 @@ TexturedMotion parse_textured_motion(std::string bytes, const std::string& name)
   read_templates(in, model);
   model.cables = CableReader(in, model).read();
   read_maps(in, model);
+  read_water(in, model);
   return model;
 }
 
