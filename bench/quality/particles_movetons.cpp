@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Movetons around cores that follow the true tracks of a scene: PSNR with cores alone and with coils, bases per
 // element, species, poses and their transitions against the truth, processor seconds.
-//   particles_movetons [VIDEO TRACKS.csv]...
+//   particles_movetons [VIDEO TRACKS.csv|MODEL.motex]...   cores of the tracks, or of a learned model
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +20,7 @@
 #include "motex/particles/refine.h"
 #include "motex/particles/templates.h"
 #include "motex/project/load_video_clip.h"
+#include "motex/project/textured_motion_file.h"
 #include "motex/project/track_csv.h"
 
 namespace motex {
@@ -145,10 +146,20 @@ void compare_poses(const std::vector<Cable>& cables, const MovetonTemplate& foun
 
 void measure(const std::filesystem::path& video, const std::filesystem::path& truth) {
   const ClipFrames clip = load_video_clip(video);
-  const Planes background = background_of(clip);
+  Planes background;
   std::vector<std::int64_t> ids;
-  const std::string text = read_file(truth);
-  std::vector<Cable> cables = cables_of(parse_tracks_csv(text, truth.string()), clip, background, ids);
+  std::vector<Cable> cables;
+  std::string text;
+  if (truth.extension() == ".motex") {
+    const TexturedMotion model = load_textured_motion(truth);
+    background = model.background;
+    cables = model.cables;
+    ids.resize(cables.size(), 0);
+  } else {
+    text = read_file(truth);
+    background = background_of(clip);
+    cables = cables_of(parse_tracks_csv(text, truth.string()), clip, background, ids);
+  }
   std::size_t elements = 0;
   for (const Cable& cable : cables) elements += cable.core.size();
   const double start = processor_secs();
@@ -173,7 +184,7 @@ void measure(const std::filesystem::path& video, const std::filesystem::path& tr
     std::printf(" coils;");
   }
   std::puts("");
-  if (!templates.empty()) compare_poses(cables, templates[0], ids, text);
+  if (!templates.empty() && !text.empty()) compare_poses(cables, templates[0], ids, text);
 }
 
 int run(int argc, char** argv) {

@@ -104,6 +104,24 @@ CoilFit fitted(const CoilWindow& window, const Base& start, const Base& core, do
   return out;
 }
 
+/// Pixels that are nearer to the other core in its scales become zero. Along a row the difference of both squared
+/// distances is a polynomial.
+void give_to_nearer(CoilWindow& window, const Base& core, const Base& other) {
+  const double weight = core.scale * core.scale / (other.scale * other.scale);
+  const double mine_x = window.left - core.x, theirs_x = window.left - other.x;
+  const auto square = static_cast<float>(weight - 1), slope = static_cast<float>(2 * (weight * theirs_x - mine_x));
+  for (int y = 0; y < window.residual.height; ++y) {
+    const double mine_y = window.top + y - core.y, theirs_y = window.top + y - other.y;
+    const auto level =
+        static_cast<float>(weight * (theirs_x * theirs_x + theirs_y * theirs_y) - mine_x * mine_x - mine_y * mine_y);
+    float* row = window.residual.row(y);
+    for (int x = 0; x < window.residual.width; ++x) {
+      const auto at = static_cast<float>(x);
+      row[x] = (square * at + slope) * at + level < 0 ? 0 : row[x];
+    }
+  }
+}
+
 }  // namespace
 
 bool is_oriented(BaseKind kind) { return kind == BaseKind::kGaborCos || kind == BaseKind::kGaborSin; }
@@ -119,16 +137,7 @@ CoilWindow cut_window(const Plane& residual, const Base& core, const std::vector
   out.residual = Plane(right - out.left, bottom - out.top);
   for (int y = 0; y < out.residual.height; ++y)
     std::copy_n(residual.row(out.top + y) + out.left, out.residual.width, out.residual.row(y));
-  for (const Base& other : others) {
-    const double weight = core.scale * core.scale / (other.scale * other.scale);
-    for (int y = 0; y < out.residual.height; ++y)
-      for (int x = 0; x < out.residual.width; ++x) {
-        const double px = out.left + x, py = out.top + y;
-        const double mine = (px - core.x) * (px - core.x) + (py - core.y) * (py - core.y);
-        const double theirs = (px - other.x) * (px - other.x) + (py - other.y) * (py - other.y);
-        if (theirs * weight < mine) out.residual.at(x, y) = 0;
-      }
-  }
+  for (const Base& other : others) give_to_nearer(out, core, other);
   return out;
 }
 

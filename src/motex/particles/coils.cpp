@@ -16,7 +16,8 @@ namespace motex {
 namespace {
 
 constexpr double kRidge = 0.02;
-constexpr double kJump = 1.4;  // a new place must have so much more energy than the carried coil
+constexpr double kLeastNoise = 1;  // grey levels: rounding and compression
+constexpr double kJump = 1.4;      // a new place must have so much more energy than the carried coil
 
 /// Where a cable's bases stand in a frame.
 struct Occupant {
@@ -28,7 +29,12 @@ class CoilGrower {
  public:
   CoilGrower(const ClipFrames& clip, const Planes& background, std::vector<Cable>& cables,
              const GrowCoilsOptions& options, const JobContext& job)
-      : clip_(clip), background_(background), cables_(cables), options_(options), job_(job) {
+      : clip_(clip),
+        background_(background),
+        grey_background_(luma(background)),
+        cables_(cables),
+        options_(options),
+        job_(job) {
     frames_.resize(clip.luma.size());
     for (std::size_t c = 0; c < cables.size(); ++c)
       for (std::size_t at = 0; at < cables[c].core.size(); ++at) {
@@ -43,7 +49,11 @@ class CoilGrower {
 
   GrowCoilsReport run() {
     GrowCoilsReport report;
-    for (Cable& cable : cables_) cable.coils.clear();
+    for (Cable& cable : cables_) {
+      cable.coils.clear();
+      for (Base& core : cable.core)
+        core.coefficients = {static_cast<float>(luma_coefficient(core, clip_.num_planes())), 0, 0};
+    }
     report.background_psnr = psnr_of_background();
     fit_all();
     report.cores_psnr = mean_psnr();
@@ -55,6 +65,7 @@ class CoilGrower {
       fit_all();
     }
     report.psnr = mean_psnr();
+    fit_colours();
     count(report);
     return report;
   }
@@ -70,10 +81,9 @@ class CoilGrower {
         for (const Occupant& b : here) {
           if (a.cable == b.cable) continue;
           const Base &core = core_of(a), &other = core_of(b);
-          const double reach = (options_.reach + 2) * 1.5 * core.scale + 2;
-          if (std::abs(core.x - other.x) > 2 * reach || std::abs(core.y - other.y) > 2 * reach) continue;
-          // beyond the window's corner as seen from the other core: it owns nothing here
-          const double limit = reach * (1 + other.scale / core.scale);
+          // farther than that from the window's edge it owns nothing there
+          const double limit = ((options_.reach + 2) * core.scale + 1) * (1 + other.scale / core.scale);
+          if (std::abs(core.x - other.x) > limit || std::abs(core.y - other.y) > limit) continue;
           if (std::hypot(core.x - other.x, core.y - other.y) < limit)
             neighbours_[static_cast<std::size_t>(a.cable)][a.at].push_back(other);
         }
@@ -82,12 +92,7 @@ class CoilGrower {
 
   const Base& core_of(const Occupant& who) const { return cables_[static_cast<std::size_t>(who.cable)].core[who.at]; }
 
-  Plane target(int frame, std::size_t plane) const {
-    const auto idx = static_cast<std::size_t>(frame);
-    if (clip_.colour.empty()) return minus(clip_.luma[idx], background_[0]);
-    return minus(to_planes(clip_.colour[idx], 3)[plane], background_[plane]);
-  }
-
+  /// a − b.
   static Plane minus(Plane a, const Plane& b) {
     for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
     return a;
@@ -103,39 +108,48 @@ class CoilGrower {
     return out;
   }
 
-  /// All coefficients of all frames, and what they leave of the luma.
+  /// Luma coefficients (in coefficients[0]) of all frames, and what they leave.
   void fit_all() {
     parallel_for(job_.jobs, clip_.num_frames(), [&](int frame) {
       job_.check_cancelled();
-      fit_frame(frame);
+      const auto idx = static_cast<std::size_t>(frame);
+      const std::vector<Base*> places = bases_of(frame);
+      const JointFit fit(copies_of(places), clip_.width, clip_.height, kRidge);
+      Plane& left = residuals_[idx] = minus(clip_.luma[idx], grey_background_);
+      solve_plane(fit, left, places, 0, 1);
+      for (std::size_t j = 0; j < places.size(); ++j) add_patch(left, fit.patches()[j], -places[j]->coefficients[0]);
+      squares_[idx] = 0;
+      for (const float value : left.values) squares_[idx] += static_cast<double>(value) * static_cast<double>(value);
     });
   }
 
-  void fit_frame(int frame) {
-    const auto idx = static_cast<std::size_t>(frame);
-    const std::vector<Base*> places = bases_of(frame);
-    std::vector<Base> bases;
-    for (const Base* base : places) bases.push_back(*base);
-    const JointFit fit(bases, clip_.width, clip_.height, kRidge);
-    const std::size_t num_planes = background_.size();
-    residuals_[idx] = Plane(clip_.width, clip_.height);
-    squares_[idx] = 0;
-    constexpr float kLumaWeights[] = {0.299F, 0.587F, 0.114F};
-    for (std::size_t k = 0; k < num_planes; ++k) {
-      Plane left = target(frame, k);
-      std::vector<float> start(bases.size());
-      for (std::size_t j = 0; j < bases.size(); ++j) start[j] = bases[j].coefficients[k];
-      const std::vector<float> alpha = fit.solve(left, start);
-      for (std::size_t j = 0; j < bases.size(); ++j) {
-        places[j]->coefficients[k] = alpha[j];
-        add_patch(left, fit.patches()[j], -alpha[j]);
-      }
-      const float weight = num_planes == 3 ? kLumaWeights[k] : 1;
-      for (std::size_t i = 0; i < left.values.size(); ++i) {
-        residuals_[idx].values[i] += weight * left.values[i];
-        squares_[idx] += static_cast<double>(left.values[i]) * static_cast<double>(left.values[i]);
-      }
-    }
+  /// Geometry is settled: the same for every colour. The second time from what the first gave, so that the ridge
+  /// does not draw colours towards grey.
+  void fit_colours() {
+    if (clip_.colour.empty()) return;
+    parallel_for(job_.jobs, clip_.num_frames(), [&](int frame) {
+      job_.check_cancelled();
+      const std::vector<Base*> places = bases_of(frame);
+      const JointFit fit(copies_of(places), clip_.width, clip_.height, kRidge);
+      const Planes colours = to_planes(clip_.colour[static_cast<std::size_t>(frame)], 3);
+      for (Base* base : places) base->coefficients.fill(base->coefficients[0]);
+      for (std::size_t k = 0; k < 3; ++k) solve_plane(fit, minus(colours[k], background_[k]), places, k, 2);
+    });
+  }
+
+  static std::vector<Base> copies_of(const std::vector<Base*>& places) {
+    std::vector<Base> out;
+    out.reserve(places.size());
+    for (const Base* base : places) out.push_back(*base);
+    return out;
+  }
+
+  static void solve_plane(const JointFit& fit, const Plane& target, const std::vector<Base*>& places, std::size_t plane,
+                          int times) {
+    std::vector<float> alpha(places.size());
+    for (std::size_t j = 0; j < alpha.size(); ++j) alpha[j] = places[j]->coefficients[plane];
+    for (int k = 0; k < times; ++k) alpha = fit.solve(target, alpha);
+    for (std::size_t j = 0; j < alpha.size(); ++j) places[j]->coefficients[plane] = alpha[j];
   }
 
   /// One more coil for each cable that still gains. Whether any did.
@@ -154,16 +168,13 @@ class CoilGrower {
       std::vector<Base> coil;
       for (const CoilFit& fit : found[c]) {
         coil.push_back(fit.base);
-        coil.back().coefficients.fill(0);
-        for (std::size_t k = 0; k < background_.size(); ++k) coil.back().coefficients[k] = fit.coefficient;
+        coil.back().coefficients = {fit.coefficient, 0, 0};
       }
       unwrap(coil);
       cables_[c].coils.push_back(std::move(coil));
     }
     return any;
   }
-
-  double luma_energy(const Base& core) const { return std::pow(luma_coefficient(core, clip_.num_planes()), 2); }
 
   /// The next coil of a cable in all its frames; none when it is not worth it.
   std::vector<CoilFit> coil_along(const Cable& cable, const std::vector<std::vector<Base>>& neighbours) const {
@@ -176,7 +187,8 @@ class CoilGrower {
       const std::int64_t frame = cable.first_frame + static_cast<std::int64_t>(at);
       if (frame < 0 || frame >= clip_.num_frames()) continue;
       const Base& core = cable.core[at];
-      const double least = std::max(weakest, std::sqrt(options_.min_share * luma_energy(core)));
+      const double least =
+          std::max(weakest, std::sqrt(options_.min_share) * std::abs(static_cast<double>(core.coefficients[0])));
       enough += least * least;
       windows[at] = cut_window(residuals_[static_cast<std::size_t>(frame)], core, neighbours[at], options_.reach);
       fresh[at] = find_coil(windows[at], core, options_.reach, least);
@@ -218,15 +230,13 @@ class CoilGrower {
   }
   double psnr_of_background() const {
     double sum = 0;
-    for (int frame = 0; frame < clip_.num_frames(); ++frame)
-      for (std::size_t k = 0; k < background_.size(); ++k)
-        for (const float value : target(frame, k).values)
-          sum += static_cast<double>(value) * static_cast<double>(value);
+    for (const Plane& plane : clip_.luma)
+      for (std::size_t i = 0; i < plane.values.size(); ++i)
+        sum += std::pow(static_cast<double>(plane.values[i] - grey_background_.values[i]), 2);
     return psnr_of(sum);
   }
   double psnr_of(double sum) const {
-    const double num =
-        static_cast<double>(clip_.num_frames()) * static_cast<double>(background_.size()) * clip_.width * clip_.height;
+    const double num = static_cast<double>(clip_.num_frames()) * clip_.width * clip_.height;
     return 10 * std::log10(255.0 * 255.0 * num / sum);
   }
 
@@ -238,7 +248,7 @@ class CoilGrower {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
-    return std::max(0.3, 1.4826 * static_cast<double>(*middle));
+    return std::max(kLeastNoise, 1.4826 * static_cast<double>(*middle));
   }
 
   void count(GrowCoilsReport& report) const {
@@ -256,6 +266,7 @@ class CoilGrower {
 
   const ClipFrames& clip_;
   const Planes& background_;
+  Plane grey_background_;
   std::vector<Cable>& cables_;
   const GrowCoilsOptions& options_;
   const JobContext& job_;

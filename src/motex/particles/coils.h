@@ -29,7 +29,7 @@ struct GrowCoilsOptions {
   }
 };
 
-/// How well cores and coils stand for the clip. PSNR over all frames and planes, dB.
+/// How well cores and coils stand for the clip. PSNR of the luma over all frames, dB.
 struct GrowCoilsReport {
   double background_psnr = 0;
   double cores_psnr = 0;         ///< background and cores, coefficients fitted jointly

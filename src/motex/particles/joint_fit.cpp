@@ -78,7 +78,7 @@ std::vector<float> JointFit::solve(const Plane& target, const std::vector<float>
     slope[j] = static_cast<double>(inner_product(patches_[j], target)) + ridge_ * alpha[j] - product[j];
   direction = slope;
   double energy = dot(slope, slope);
-  const double enough = 1e-8 * energy;
+  const double enough = 1e-6 * energy;
   for (int step = 0; step < kMaxSteps && energy > enough && energy > 1e-12; ++step) {
     multiply(direction, product);
     const double curvature = dot(direction, product);
