@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 namespace motex {
 namespace {
@@ -14,8 +15,13 @@ namespace {
 constexpr double kReach = 3.3;            // deviations; e^{−3.3²/2} = 0.004
 constexpr double kJointDistance = 2.5;    // mean scales: nearer blobs are fitted together
 constexpr std::size_t kLargestCluster = 10;
-constexpr int kMaxIterations = 12;
-constexpr double kMaxStretch = 4;         // aspect e⁴ at most
+constexpr int kMaxIterations = 8;
+constexpr double kMaxStretch = 2;         // aspect e² at most
+constexpr double kEnoughGain = 0.3;       // of the squared error in squared noises: less is not worth a step
+constexpr double kSettled = 0.1;          // step in pixels (or of ln s) that does not touch the neighbours
+
+double square(double value) { return value * value; }
+double square_distance(const Blob& a, const Blob& b) { return square(a.x - b.x) + square(a.y - b.y); }
 
 /// P of Blob.
 struct Precision {
@@ -65,6 +71,7 @@ void fill_gaussian(const Blob& blob, const Box& box, float* out) {
       const double dx = box.left + x - blob.x;
       columns[static_cast<std::size_t>(x)] = static_cast<float>(std::exp(-0.5 * p.xx * dx * dx));
     }
+  const double ratio_step = std::exp(-p.xx);
   for (int y = box.top; y < box.bottom; ++y) {
     const double dy = y - blob.y;
     if (is_separable) {
@@ -72,9 +79,14 @@ void fill_gaussian(const Blob& blob, const Box& box, float* out) {
       for (int x = 0; x < box.width(); ++x) *out++ = row * columns[static_cast<std::size_t>(x)];
       continue;
     }
-    for (int x = box.left; x < box.right; ++x) {
-      const double dx = x - blob.x;
-      *out++ = static_cast<float>(std::exp(-0.5 * (p.xx * dx * dx + 2 * p.xy * dx * dy + p.yy * dy * dy)));
+    // Along a row the exponent is a square polynomial: it goes on by multiplication.
+    const double dx = box.left - blob.x;
+    double value = std::exp(-0.5 * (p.xx * dx * dx + 2 * p.xy * dx * dy + p.yy * dy * dy));
+    double ratio = std::exp(-p.xx * (dx + 0.5) - p.xy * dy);
+    for (int x = 0; x < box.width(); ++x) {
+      *out++ = static_cast<float>(value);
+      value *= ratio;
+      ratio *= ratio_step;
     }
   }
 }
@@ -149,38 +161,47 @@ class ClusterSolver {
   ClusterSolver(const Plane& image, const FitBlobsOptions& options, const FreeParameters& free)
       : image_(image), options_(options), free_(free) {}
 
+  void clear() {
+    num_ = 0;
+    priors_.clear();
+  }
   void take(const Blob& blob, const BlobPrior& prior) {
-    members_.push_back({blob, box_of(blob, image_, 1), {}, {}});
+    if (num_ == members_.size()) {
+      members_.emplace_back();
+      next_.emplace_back();
+    }
+    members_[num_].blob = blob;
+    members_[num_].box = next_[num_].box = box_of(blob, image_, 1);
     priors_.push_back(prior);
+    ++num_;
   }
 
   /// Returns whether it moved by more than a little.
   bool solve() {
     cut_out();
-    for (Member& member : members_) fill_values(member);
+    for (std::size_t k = 0; k < num_; ++k) fill_values(members_[k]);
     double cost = cost_of(members_, errors_);
     double damping = 1e-3;
     bool is_new = true, has_moved = false;
-    std::vector<Member> next = members_;
     for (int step = 0; step < kMaxIterations; ++step) {
       if (is_new) linearise();
       const Eigen::VectorXd change = damped_step(damping);
       if (!change.allFinite()) break;
       double largest = 0;
-      for (std::size_t k = 0; k < members_.size(); ++k) {
-        next[k].blob = moved(members_[k].blob, change, k, largest);
-        fill_values(next[k]);
+      for (std::size_t k = 0; k < num_; ++k) {
+        next_[k].blob = moved(members_[k].blob, change, k, largest);
+        fill_values(next_[k]);
       }
-      const double next_cost = cost_of(next, next_errors_);
+      const double next_cost = cost_of(next_, next_errors_);
       is_new = next_cost < cost;
       damping = is_new ? damping * 0.2 : damping * 8;
       if (is_new) {
-        has_moved = has_moved || largest > 0.05;
+        has_moved = has_moved || largest > kSettled;
         const double gain = cost - next_cost;
         cost = next_cost;
-        std::swap(members_, next);
+        std::swap(members_, next_);
         std::swap(errors_, next_errors_);
-        if (gain < 0.02 || largest < 0.003) break;
+        if (gain < std::max(kEnoughGain, 1e-3 * cost) || largest < 0.003) break;
       } else if (largest < 1e-3 || damping > 1e6) {
         break;
       }
@@ -197,7 +218,8 @@ class ClusterSolver {
 
   void cut_out() {
     frame_ = members_[0].box;
-    for (const Member& member : members_) {
+    for (std::size_t k = 0; k < num_; ++k) {
+      const Member& member = members_[k];
       if (member.box.is_empty()) continue;
       if (frame_.is_empty()) frame_ = member.box;
       frame_ = {std::min(frame_.left, member.box.left), std::min(frame_.top, member.box.top),
@@ -216,7 +238,7 @@ class ClusterSolver {
   double cost_of(const std::vector<Member>& members, std::vector<float>& errors) const {
     errors = target_;
     double cost = 0;
-    for (std::size_t k = 0; k < members.size(); ++k) {
+    for (std::size_t k = 0; k < num_; ++k) {
       const Member& member = members[k];
       const float* value = member.values.data();
       const auto amplitude = static_cast<float>(member.blob.amplitude);
@@ -242,12 +264,12 @@ class ClusterSolver {
   }
 
   void linearise() {
-    const Eigen::Index n = free_.num, size = n * static_cast<Eigen::Index>(members_.size());
+    const Eigen::Index n = free_.num, size = n * static_cast<Eigen::Index>(num_);
     curvature_.setZero(size, size);
     slope_.setZero(size);
-    for (Member& member : members_) fill_derivatives<N>(member);
+    for (std::size_t k = 0; k < num_; ++k) fill_derivatives<N>(members_[k]);
     const double weight = 1 / (options_.noise * options_.noise);
-    for (std::size_t k = 0; k < members_.size(); ++k) {
+    for (std::size_t k = 0; k < num_; ++k) {
       const Eigen::Index row = n * static_cast<Eigen::Index>(k);
       slope_.segment(row, n) += weight * gradient(members_[k]).head(n).template cast<double>();
       for (std::size_t m = 0; m <= k; ++m) {
@@ -322,13 +344,13 @@ class ClusterSolver {
     return blob;
   }
 
+  /// By the curvature of the last step, which lies near enough.
   void measure_spreads() {
-    linearise();
     const Eigen::Index n = free_.num;
     Eigen::MatrixXd damped = curvature_;
     damped.diagonal().array() += 1e-9;
     const Eigen::MatrixXd covariance = damped.ldlt().solve(Eigen::MatrixXd::Identity(damped.rows(), damped.cols()));
-    for (std::size_t k = 0; k < members_.size(); ++k) {
+    for (std::size_t k = 0; k < num_; ++k) {
       const Eigen::Index row = n * static_cast<Eigen::Index>(k);
       Blob& blob = members_[k].blob;
       blob.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(row, row) + covariance(row + 1, row + 1))));
@@ -339,8 +361,9 @@ class ClusterSolver {
 
   const Plane& image_;
   const FitBlobsOptions& options_;
-  const FreeParameters& free_;
-  std::vector<Member> members_;
+  FreeParameters free_;
+  std::size_t num_ = 0;  // of members in use
+  std::vector<Member> members_, next_;
   std::vector<BlobPrior> priors_;
   Box frame_;
   std::vector<float> target_, errors_, next_errors_;
@@ -357,7 +380,16 @@ double Blob::angle() const {
   return angle < 0 ? angle + std::numbers::pi : angle;
 }
 
-BlobFitter::BlobFitter(const Plane& image, const FitBlobsOptions& options) : options_(options), residual_(image) {}
+struct BlobFitter::Solver {
+  Solver(const Plane& image, const FitBlobsOptions& options)
+      : round(image, options, kRound), oriented(image, options, kOriented) {}
+  ClusterSolver<4> round;
+  ClusterSolver<8> oriented;
+};
+
+BlobFitter::BlobFitter(const Plane& image, const FitBlobsOptions& options)
+    : options_(options), residual_(image), solver_(std::make_unique<Solver>(residual_, options_)) {}
+BlobFitter::~BlobFitter() = default;
 
 void BlobFitter::add(const Blob& blob, const BlobPrior& prior) {
   unsettle_near(blob);
@@ -378,14 +410,14 @@ void BlobFitter::remove(std::size_t idx) {
 
 void BlobFitter::unsettle_near(const Blob& blob) {
   for (std::size_t k = 0; k < blobs_.size(); ++k)
-    if (std::hypot(blobs_[k].x - blob.x, blobs_[k].y - blob.y) < 3 * (blobs_[k].scale() + blob.scale()))
-      is_settled_[k] = 0;
+    if (square_distance(blobs_[k], blob) < square(2 * (blobs_[k].scale() + blob.scale()))) is_settled_[k] = 0;
 }
 
 void BlobFitter::paint(const Blob& blob, float sign) {
   const Box box = box_of(blob, residual_, 0);
   if (box.is_empty()) return;
-  std::vector<float> values(box.area());
+  std::vector<float>& values = painted_;
+  values.resize(box.area());
   fill_gaussian(blob, box, values.data());
   const float weight = sign * static_cast<float>(blob.amplitude);
   const float* value = values.data();
@@ -483,8 +515,8 @@ std::vector<std::vector<int>> BlobFitter::clusters() const {
     for (std::size_t j = i + 1; j < by_x.size(); ++j) {
       const Blob &a = blob(by_x[i]), &b = blob(by_x[j]);
       if (b.x - a.x > kJointDistance * largest) break;
-      const double distance = std::hypot(a.x - b.x, a.y - b.y) / (0.5 * (a.scale() + b.scale()));
-      if (distance < kJointDistance) pairs.push_back({distance, by_x[i], by_x[j]});
+      const double distance = square_distance(a, b) / square(0.5 * (a.scale() + b.scale()));
+      if (distance < square(kJointDistance)) pairs.push_back({distance, by_x[i], by_x[j]});
     }
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.distance, a.a, a.b) < std::tie(b.distance, b.a, b.b);
@@ -510,15 +542,16 @@ std::vector<std::vector<int>> BlobFitter::clusters() const {
 bool BlobFitter::fit_cluster(const std::vector<int>& members) {
   for (const int k : members) paint(blobs_[static_cast<std::size_t>(k)], -1);
   bool has_moved = false;
-  const auto solve = [&](auto solver) {
+  const auto solve = [&](auto& solver) {
+    solver.clear();
     for (const int k : members) solver.take(blobs_[static_cast<std::size_t>(k)], priors_[static_cast<std::size_t>(k)]);
     has_moved = solver.solve();
     for (std::size_t k = 0; k < members.size(); ++k) blobs_[static_cast<std::size_t>(members[k])] = solver.blob(k);
   };
   if (options_.oriented) {
-    solve(ClusterSolver<8>(residual_, options_, kOriented));
+    solve(solver_->oriented);
   } else {
-    solve(ClusterSolver<4>(residual_, options_, kRound));
+    solve(solver_->round);
   }
   for (const int k : members) paint(blobs_[static_cast<std::size_t>(k)], 1);
   return has_moved;

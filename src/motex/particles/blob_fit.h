@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "motex/image/planes.h"
@@ -42,6 +43,9 @@ struct FitBlobsOptions {
 class BlobFitter {
  public:
   BlobFitter(const Plane& image, const FitBlobsOptions& options);
+  ~BlobFitter();
+  BlobFitter(const BlobFitter&) = delete;
+  BlobFitter& operator=(const BlobFitter&) = delete;
 
   void add(const Blob& blob, const BlobPrior& prior = {});
   void remove(std::size_t idx);
@@ -69,6 +73,9 @@ class BlobFitter {
   std::vector<Blob> blobs_;
   std::vector<BlobPrior> priors_;
   std::vector<char> is_settled_;
+  std::vector<float> painted_;  // buffer of paint()
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
 };
 
 }  // namespace motex

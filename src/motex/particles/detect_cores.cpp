@@ -14,7 +14,7 @@ namespace motex {
 namespace {
 
 constexpr int kRounds = 3;               // searches of what the spots found so far leave
-constexpr std::size_t kSampleFrames = 5;
+constexpr std::size_t kSampleFrames = 7;
 constexpr double kOneSigned = 0.8;       // share of the energy that makes a clip bright (or dark)
 constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest elements
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
@@ -112,7 +112,9 @@ class Detector {
   bool is_shadowed(const BlobPeak& peak, std::size_t num_before) const {
     const std::vector<Blob>& blobs = fitter_.blobs();
     const double least = weakest_beside();
+    const double reach = 10 * options_.max_scale;
     for (std::size_t k = 0; k < blobs.size(); ++k) {
+      if (std::abs(blobs[k].x - peak.x) > reach || std::abs(blobs[k].y - peak.y) > reach) continue;
       const double distance = std::hypot(blobs[k].x - peak.x, blobs[k].y - peak.y);
       if (k >= num_before && distance < (0.8 + 1.7 * structure_) * std::max(blobs[k].scale(), peak.scale)) return true;
       if (k < num_before && std::abs(peak.amplitude) < least * shadow(blobs[k], peak.x, peak.y)) return true;
@@ -160,10 +162,12 @@ class Detector {
     if (std::abs(blob.amplitude) < 0.7 * options_.min_significance * blob.amplitude_spread) return true;
     if (blob.log_scale > std::log(1.2 * options_.max_scale)) return true;
     if (energy_root(blob) < options_.min_significance * noise_ * 0.7) return true;
+    const double reach = 10 * options_.max_scale;
     for (std::size_t m = 0; m < blobs.size(); ++m) {
-      if (m == k || energy_root(blobs[m]) < energy_root(blob)) continue;
+      if (m == k || std::abs(blobs[m].x - blob.x) > reach || std::abs(blobs[m].y - blob.y) > reach) continue;
       const double distance = std::hypot(blob.x - blobs[m].x, blob.y - blobs[m].y);
       if (distance > 6 * blobs[m].scale() * std::sqrt(blobs[m].aspect())) continue;
+      if (energy_root(blobs[m]) < energy_root(blob)) continue;
       if (distance < 0.3 * std::min(blob.scale(), blobs[m].scale())) return true;
       if (std::abs(blob.amplitude) <
           weakest_beside() * shadow(blobs[m], blob.x, blob.y))

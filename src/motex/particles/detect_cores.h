@@ -39,7 +39,7 @@ struct DetectOptions {
 /// elements do not disturb; at least 0.5 grey levels (rounding, compression). Throws InvalidInput without planes.
 double noise_of(const std::vector<Plane>& residuals);
 
-/// The options with sign and shape decided by the elements that stand out most in up to five of the frames, and
+/// The options with sign and shape decided by the elements that stand out most in up to seven of the frames, and
 /// shape_misfit measured on those that stand alone.
 DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise);
 
