@@ -40,9 +40,10 @@ Plane negated(Plane plane) {
 
 /// Distance of (x, y) from a spot in its deviations.
 double distance_in(const Blob& blob, double x, double y) {
+  const double dx = x - blob.x, dy = y - blob.y;
+  if (blob.e1 == 0 && blob.e2 == 0) return std::sqrt(dx * dx + dy * dy) / blob.scale();
   const double c = std::cos(blob.angle()), s = std::sin(blob.angle()), e = std::hypot(blob.e1, blob.e2) / 2;
-  const double dx = x - blob.x, dy = y - blob.y, along = dx * c + dy * s, across = dy * c - dx * s;
-  return std::hypot(along / std::exp(e), across / std::exp(-e)) / blob.scale();
+  return std::hypot((dx * c + dy * s) / std::exp(e), (dy * c - dx * s) / std::exp(-e)) / blob.scale();
 }
 
 /// Height of a spot twice as wide at (x, y): how far its neighbourhood reaches.
@@ -115,6 +116,7 @@ class Detector {
     const double reach = 10 * options_.max_scale;
     for (std::size_t k = 0; k < blobs.size(); ++k) {
       if (std::abs(blobs[k].x - peak.x) > reach || std::abs(blobs[k].y - peak.y) > reach) continue;
+      if (k < num_before && std::abs(blobs[k].amplitude) * least < std::abs(peak.amplitude)) continue;
       const double distance = std::hypot(blobs[k].x - peak.x, blobs[k].y - peak.y);
       if (k >= num_before && distance < (0.8 + 1.7 * structure_) * std::max(blobs[k].scale(), peak.scale)) return true;
       if (k < num_before && std::abs(peak.amplitude) < least * shadow(blobs[k], peak.x, peak.y)) return true;
@@ -135,44 +137,58 @@ class Detector {
     return fitter_.blobs().size() > num;
   }
 
-  /// Takes away the least sure of the spots that the fit has shown not to be elements.
+  /// Of a spot, what is asked of every pair.
+  struct Facts {
+    double x, y, scale, energy, reach_square;
+  };
+  void list_facts() {
+    facts_.clear();
+    for (const Blob& blob : fitter_.blobs()) {
+      const double scale = blob.scale(), reach = 6 * scale * std::sqrt(blob.aspect());
+      facts_.push_back({blob.x, blob.y, scale, energy_root(blob), reach * reach});
+    }
+  }
+
+  /// Takes away spots that the fit has shown not to be elements; of two that overlap only the weaker: the other may be
+  /// sound without it.
   bool remove_doubtful() {
-    const std::vector<Blob>& blobs = fitter_.blobs();
-    std::vector<std::size_t> doubtful;
-    for (std::size_t k = 0; k < blobs.size(); ++k)
+    list_facts();
+    std::vector<std::size_t> doubtful, gone;
+    for (std::size_t k = 0; k < facts_.size(); ++k)
       if (is_doubtful(k)) doubtful.push_back(k);
-    // Of two that overlap only the weaker goes now: the other may be sound without it.
-    std::vector<std::size_t> gone;
     for (const std::size_t k : doubtful) {
       bool is_weakest = true;
-      for (const std::size_t m : doubtful)
-        is_weakest = is_weakest && (m == k || std::hypot(blobs[k].x - blobs[m].x, blobs[k].y - blobs[m].y) >
-                                                  2 * (blobs[k].scale() + blobs[m].scale()) ||
-                                    std::make_pair(energy_root(blobs[k]), k) < std::make_pair(energy_root(blobs[m]), m));
+      for (const std::size_t m : doubtful) {
+        const double near = 2 * (facts_[k].scale + facts_[m].scale);
+        if (m == k || square_distance(facts_[k], facts_[m]) > near * near) continue;
+        is_weakest = is_weakest && std::make_pair(facts_[k].energy, k) < std::make_pair(facts_[m].energy, m);
+      }
       if (is_weakest) gone.push_back(k);
     }
     for (auto k = gone.rbegin(); k != gone.rend(); ++k) fitter_.remove(*k);
     return !gone.empty();
   }
 
+  static double square_distance(const Facts& a, const Facts& b) {
+    return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+  }
+
   bool is_doubtful(std::size_t k) const {
     const std::vector<Blob>& blobs = fitter_.blobs();
     const Blob& blob = blobs[k];
+    const Facts& own = facts_[k];
     if (options_.sign != CoreSign::kBoth && blob.amplitude <= 0) return true;
     if (std::abs(blob.amplitude) < 0.7 * options_.min_significance * blob.amplitude_spread) return true;
-    if (blob.log_scale > std::log(1.2 * options_.max_scale)) return true;
-    if (energy_root(blob) < options_.min_significance * noise_ * 0.7) return true;
-    const double reach = 10 * options_.max_scale;
+    if (own.scale > 1.2 * options_.max_scale) return true;
+    if (own.energy < options_.min_significance * noise_ * 0.7) return true;
     for (std::size_t m = 0; m < blobs.size(); ++m) {
-      if (m == k || std::abs(blobs[m].x - blob.x) > reach || std::abs(blobs[m].y - blob.y) > reach) continue;
-      const double distance = std::hypot(blob.x - blobs[m].x, blob.y - blobs[m].y);
-      if (distance > 6 * blobs[m].scale() * std::sqrt(blobs[m].aspect())) continue;
-      if (energy_root(blobs[m]) < energy_root(blob)) continue;
-      if (distance < 0.3 * std::min(blob.scale(), blobs[m].scale())) return true;
-      if (std::abs(blob.amplitude) <
-          weakest_beside() * shadow(blobs[m], blob.x, blob.y))
-        return true;
-      if (distance_in(blobs[m], blob.x, blob.y) < 2.5 * structure_) return true;
+      const Facts& other = facts_[m];
+      const double distance = square_distance(own, other);
+      if (distance > other.reach_square || m == k || other.energy < own.energy) continue;
+      const double least = 0.3 * std::min(own.scale, other.scale);
+      if (distance < least * least) return true;
+      if (std::abs(blob.amplitude) < weakest_beside() * shadow(blobs[m], blob.x, blob.y)) return true;
+      if (structure_ > 0 && distance_in(blobs[m], blob.x, blob.y) < 2.5 * structure_) return true;
     }
     return false;
   }
@@ -203,6 +219,7 @@ class Detector {
   double noise_;
   DetectOptions options_;
   BlobFitter fitter_;
+  std::vector<Facts> facts_;
   double structure_;  ///< 0 = elements are Gaussian, 1 = they have parts: none near a stronger one
   bool has_expected_ = false;
 };
