@@ -26,7 +26,7 @@ Value report_value(const LearnTexturedMotionReport& report) {
     object["rounds"].append(std::move(one));
   }
   object["moves"] = Value::List();
-  for (const LearnMove& move : report.moves) {
+  for (const MoveCount& move : report.moves) {
     Value one;
     one["move"] = move.name;
     one["proposed"] = move.proposed;
@@ -39,9 +39,9 @@ Value report_value(const LearnTexturedMotionReport& report) {
   return object;
 }
 
-std::string moves_table(const std::vector<LearnMove>& moves) {
+std::string moves_table(const std::vector<MoveCount>& moves) {
   std::vector<std::vector<std::string>> rows{{"move", "proposed", "accepted", "%"}};
-  for (const LearnMove& move : moves)
+  for (const MoveCount& move : moves)
     rows.push_back(
         {move.name, std::to_string(move.proposed), std::to_string(move.accepted),
          fixed(100 * static_cast<double>(move.accepted) / static_cast<double>(std::max<std::int64_t>(1, move.proposed)),

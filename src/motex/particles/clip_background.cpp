@@ -95,6 +95,12 @@ void ClipBackground::refresh(const ClipFrames& clip, const std::vector<Cable>& c
   update_residuals(clip, job.jobs);
 }
 
+void ClipBackground::shift(const ClipFrames& clip, const Plane& luma_change, int jobs) {
+  for (Plane& plane : still_)
+    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] += luma_change.values[i];
+  update_residuals(clip, jobs);
+}
+
 void subtract_cables(std::vector<Plane>& residuals, const std::vector<Cable>& cables, int jobs) {
   parallel_for(jobs, static_cast<int>(residuals.size()), [&](int t) {
     BaseRenderer renderer;

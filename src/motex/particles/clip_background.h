@@ -27,6 +27,9 @@ class ClipBackground {
   /// grey levels). Cables of a clip in colour must have coefficients of three planes.
   void refresh(const ClipFrames& clip, const std::vector<Cable>& cables, const JobContext& job);
 
+  /// A still background plus a change of its luma.
+  void shift(const ClipFrames& clip, const Plane& luma_change, int jobs);
+
  private:
   void update_residuals(const ClipFrames& clip, int jobs);
 

@@ -10,6 +10,7 @@
 #include "motex/particles/clip_background.h"
 #include "motex/particles/coils.h"
 #include "motex/particles/fit_dynamics.h"
+#include "motex/particles/learn_water.h"
 #include "motex/particles/templates.h"
 #include "motex/particles/track_elements.h"
 
@@ -35,6 +36,7 @@ class Learning {
 
   LearnedTexturedMotion run() {
     find_cables();
+    for (int round = 0; round < options_.rounds; ++round) sample(round);
     grow();
     describe_cables();
     describe_clip();
@@ -59,6 +61,42 @@ class Learning {
     if (model().cables.empty())
       throw InvalidInput("nothing moves in the clip that stands out from its background as an element");
     add_round(0);
+  }
+
+  /// Steps 1 and 2 of the paper's loop: cables drawn from their posterior, dynamics, rates and noise regressed on them.
+  void sample(int round) {
+    EstimatePriorOptions prior_options;
+    prior_options.noise = model().noise;
+    prior_options.num_frames = clip_.num_frames();
+    const CablePrior prior = estimate_prior(model().cables, clip_.width, clip_.height, prior_options);
+    SampleCablesOptions sample_options;
+    sample_options.sweeps = options_.sweeps;
+    sample_options.learn_sweeps = options_.sweeps / 2;
+    sample_options.static_background = background_.kind() != BackgroundKind::kSmooth;
+    sample_options.seed = options_.seed + static_cast<std::uint64_t>(round);
+    const double share = 0.3 / options_.rounds;
+    SampleCablesReport sampled = sample_cables(background_.residuals(), model().cables, prior, sample_options,
+                                               part(0.4 + share * round, 0.4 + share * (round + 1)));
+    if (sampled.cables.empty()) return;
+    model().cables = std::move(sampled.cables);
+    sampled_ = true;
+    if (sample_options.static_background) background_.shift(clip_, sampled.background_change, job_.jobs);
+    add_moves(sampled.moves);
+    std::vector<double>& trace = learned_.report.log_posterior_trace;
+    trace.insert(trace.end(), sampled.log_posterior_trace.begin(), sampled.log_posterior_trace.end());
+    add_round(trace.empty() ? 0 : trace.back());
+  }
+
+  void add_moves(const std::vector<MoveCount>& moves) {
+    std::vector<MoveCount>& sums = learned_.report.moves;
+    if (sums.empty()) {
+      sums = moves;
+      return;
+    }
+    for (std::size_t k = 0; k < moves.size(); ++k) {
+      sums[k].proposed += moves[k].proposed;
+      sums[k].accepted += moves[k].accepted;
+    }
   }
 
   /// Coils and colours along the cables.
@@ -123,12 +161,29 @@ class Learning {
   bool sampled_ = false;  ///< cables are a sample of the chain, not linked detections
 };
 
+/// Water has no cores: its bases are carried.
+LearnedTexturedMotion learned_from_water(const ClipFrames& clip, const LearnTexturedMotionOptions& options,
+                                         const JobContext& job) {
+  LearnedWater water = learn_water(clip, {}, job);
+  LearnedTexturedMotion out;
+  out.report.background_psnr = water.carry.background_psnr;
+  out.report.bases_per_frame = water.carry.bases_per_frame;
+  out.report.rounds.push_back(
+      {water.carry.psnr, water.light, 0, static_cast<int>(water.model.cables.size())});
+  out.model = std::move(water.model);
+  out.model.seed = options.seed;
+  return out;
+}
+
 }  // namespace
 
 LearnedTexturedMotion learn_textured_motion(const ClipFrames& clip, const LearnTexturedMotionOptions& options,
                                             const JobContext& job) {
   check_options(options);
   check_clip(clip);
+  const bool is_water = options.tracking == TrackingKind::kCarry ||
+                        (options.tracking == TrackingKind::kAuto && looks_like_water(clip, job));
+  if (is_water) return learned_from_water(clip, options, job);
   return Learning(clip, options, job).run();
 }
 

@@ -3,39 +3,48 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "motex/core/job.h"
 #include "motex/core/options.h"
+#include "motex/particles/cable_sampler.h"
 #include "motex/particles/clip_frames.h"
 #include "motex/particles/textured_motion.h"
 
 namespace motex {
 
+/// What is followed from frame to frame.
+enum class TrackingKind {
+  kAuto,   ///< cores, or carried bases where looks_like_water()
+  kCores,  ///< elements that can be told apart
+  kCarry   ///< bases carried forward: water
+};
+
 struct LearnTexturedMotionOptions {
   std::uint64_t seed = 1;
   int rounds = 2;
+  int sweeps = 20;
   BackgroundKind background = BackgroundKind::kAuto;
   bool coils = true;
+  TrackingKind tracking = TrackingKind::kAuto;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"seed", "", "random numbers; the same seed gives the same model"}, self.seed, Range{0, 1.8e19});
     visit(Field{"rounds", "", "times that cables are sampled and everything else is fitted to them"}, self.rounds,
           Range{0, 50});
+    visit(Field{"sweeps", "", "times that the sampler goes through every frame in a round"}, self.sweeps,
+          Range{1, 10000});
     visit(Field{"background", "",
                 "what bases are added to: median over time, low (20 % quantile, for fire), smooth (the frame blurred, "
                 "for a moving camera), flat (one level, as in the paper); auto: median or smooth"},
           self.background, Choices{{"auto", "median", "low", "smooth", "flat"}});
     visit(Field{"coils", "", "the weaker bases around each core too"}, self.coils, Range{});
+    visit(Field{"tracking", "",
+                "cores: elements that can be told apart; carry: bases carried forward in time, for falling water; auto: "
+                "by how the light of the clip goes up and down"},
+          self.tracking, Choices{{"auto", "cores", "carry"}});
   }
-};
-
-/// One reversible-jump move and how often it was taken.
-struct LearnMove {
-  std::string name;
-  std::int64_t proposed = 0, accepted = 0;
 };
 
 /// What one round came to.
@@ -49,7 +58,7 @@ struct LearnRound {
 struct LearnTexturedMotionReport {
   double background_psnr = 0;      ///< of the background alone
   std::vector<LearnRound> rounds;  ///< 0: linked detections
-  std::vector<LearnMove> moves;    ///< over all rounds
+  std::vector<MoveCount> moves;    ///< reversible jumps, over all rounds
   std::vector<double> log_posterior_trace;
   double bases_per_frame = 0;
 };
