@@ -38,6 +38,7 @@ Command particles_score();
 Command particles_learn();
 Command particles_info();
 Command particles_tracks();
+Command particles_explain();
 Command particles_synthesize();
 Command particles_maps();
 Command particles_simulate_snow();

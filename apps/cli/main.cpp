@@ -47,6 +47,7 @@ CommandTable make_table() {
       particles_learn(),
       particles_info(),
       particles_tracks(),
+      particles_explain(),
       particles_synthesize(),
       particles_decompose(),
       particles_score(),

@@ -96,8 +96,8 @@ void make_layer(const Image& picture, const Image& background, Image& layer) {
   fill_transparent(layer);
 }
 
-PhotoPainter::PhotoPainter(Planes background, double magnification)
-    : background_(std::move(background)), renderer_(magnification) {
+PhotoPainter::PhotoPainter(Planes background, double magnification, int num_base_planes)
+    : background_(std::move(background)), renderer_(magnification, num_base_planes) {
   fill_image(background_, background_image_);
   sum_ = background_;
 }

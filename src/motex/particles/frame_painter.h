@@ -21,8 +21,8 @@ class FramePainter {
 /// Sums of bases over a background.
 class PhotoPainter : public FramePainter {
  public:
-  /// background: 1 or 3 planes, of the magnified size.
-  PhotoPainter(Planes background, double magnification);
+  /// background: 1 or 3 planes, of the magnified size. num_base_planes: coefficients that bases have.
+  PhotoPainter(Planes background, double magnification, int num_base_planes = 3);
   void paint(const MovetonFrame& frame, Image& picture, Image& layer) override;
 
  private:

@@ -73,6 +73,10 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
   report_.deaths_by_age = deaths_.by_age;
 }
 
+MotionEdit CableSynthesizer::Population::edited_motion() const {
+  return {options_.wind_x, options_.wind_y, options_.gravity, options_.speed};
+}
+
 BirthSettings CableSynthesizer::Population::settings() const {
   BirthSettings settings;
   settings.rate = options_.rate;
@@ -87,9 +91,10 @@ BirthSettings CableSynthesizer::Population::settings() const {
 
 void CableSynthesizer::Population::settle(const JobContext& job) {
   BirthSettings edited = settings();
-  edited.singles = calibrated_rate(job);
+  if (options_.rate > 0) edited.singles = calibrated_rate(job);
   if (!options_.sink_map.values.empty()) deaths_ = death_law_of_map(model_, options_.sink_map);
-  warm_up(edited, {options_.wind_x, options_.wind_y, options_.gravity, options_.speed}, job);
+  if (options_.rate <= 0) return start_at(0, edited, edited_motion());
+  warm_up(edited, edited_motion(), job);
   report_.births_per_frame = births_->births_per_frame();
   report_.bursts_per_frame = births_->bursts_per_frame();
 }
@@ -363,16 +368,23 @@ void CableSynthesizer::Population::draw(MovetonFrame& frame) {
   }
 }
 
-void CableSynthesizer::Population::insert(const InsertedElement& inserted) {
-  if (inserted.species >= static_cast<int>(looks_model_.templates.size()))
+std::vector<int> CableSynthesizer::Population::examples_for(const InsertedElement& inserted) const {
+  if (inserted.species >= static_cast<int>(model_.templates.size()))
     throw InvalidInput("there is no species " + std::to_string(inserted.species) + " to insert; the model has " +
-                       std::to_string(looks_model_.templates.size()) + ", counted from 0");
-  Rng rng = rng_.fork(3).fork(static_cast<std::uint64_t>(inserted.track));
+                       std::to_string(model_.templates.size()) + ", counted from 0");
   std::vector<int> like;
   for (std::size_t k = 0; k < model_.cables.size(); ++k)
     if (!model_.cables[k].core.empty() && (inserted.species < 0 || model_.cables[k].species == inserted.species))
       like.push_back(static_cast<int>(k));
-  if (like.empty()) throw InvalidInput("no learned cable is of species " + std::to_string(inserted.species));
+  if (like.empty())
+    throw InvalidInput(inserted.species < 0 ? std::string("the model has no elements to insert one like them")
+                                            : "no learned element is of species " + std::to_string(inserted.species));
+  return like;
+}
+
+void CableSynthesizer::Population::insert(const InsertedElement& inserted) {
+  const std::vector<int> like = examples_for(inserted);
+  Rng rng = rng_.fork(3).fork(static_cast<std::uint64_t>(inserted.track));
   ElementBirth birth;
   birth.cable = like[rng.below(like.size())];
   birth.x = inserted.x;

@@ -25,6 +25,8 @@ class CableSynthesizer::Population {
   void draw(MovetonFrame& frame);
   void advance();
   void insert(const InsertedElement& inserted);
+  /// Cables that it may be like.
+  std::vector<int> examples_for(const InsertedElement& inserted) const;
   const SynthesizeParticlesReport& report() const { return report_; }
 
  private:
@@ -38,6 +40,7 @@ class CableSynthesizer::Population {
   void warm_up(const BirthSettings& settings, const MotionEdit& motion, const JobContext& job);
   double calibrated_rate(const JobContext& job);
   BirthSettings settings() const;
+  MotionEdit edited_motion() const;
 
   void be_born(std::vector<ElementBirth>& births);
   void add(const ElementBirth& birth);

@@ -96,7 +96,8 @@ bool is_drawable(const Base& base, double magnification) {
 
 }  // namespace
 
-BaseRenderer::BaseRenderer(double magnification) : magnification_(magnification) {
+BaseRenderer::BaseRenderer(double magnification, int num_base_planes)
+    : magnification_(magnification), num_base_planes_(num_base_planes) {
   if (!(magnification >= 1.0 / 64 && magnification <= 64))
     throw InvalidInput("the resolution can be magnified 1/64 to 64 times, not " + std::to_string(magnification));
 }
@@ -131,8 +132,8 @@ void BaseRenderer::add_round(const Base& base, Planes& planes) {
   for (int y = 0; y < box.height; ++y, d += 1) {
     const double g = down.next() / norm;
     for (std::size_t k = 0; k < planes.size(); ++k) {
-      const auto of_bell = static_cast<float>(g * (is_log ? 1 - d * d * inverse : 1)) * base.coefficients[k];
-      const auto of_hat = static_cast<float>(g) * base.coefficients[k];
+      const auto of_bell = static_cast<float>(g * (is_log ? 1 - d * d * inverse : 1)) * coefficient(base, k);
+      const auto of_hat = static_cast<float>(g) * coefficient(base, k);
       float* const row = planes[k].row(box.top + y) + box.left;
       if (is_log)
         for (int x = 0; x < box.width; ++x) row[x] += of_bell * bell[x] + of_hat * hat[x];
@@ -216,7 +217,7 @@ void BaseRenderer::add_gabor(const Base& base, Planes& planes) {
   const double norm = std::sqrt(energy);
   const auto stride = static_cast<std::size_t>((whole.width + kLanes - 1) / kLanes * kLanes);
   for (std::size_t k = 0; k < planes.size(); ++k) {
-    const auto weight = static_cast<float>(static_cast<double>(base.coefficients[k]) / norm);
+    const auto weight = static_cast<float>(static_cast<double>(coefficient(base, k)) / norm);
     for (int y = 0; y < box.height; ++y) {
       const float* const source =
           patch_.data() + static_cast<std::size_t>(box.top + y - whole.top) * stride + (box.left - whole.left);

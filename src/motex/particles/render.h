@@ -18,11 +18,11 @@ namespace motex {
 /// their peak; nothing is allocated once the largest base has been seen.
 class BaseRenderer {
  public:
-  /// Throws InvalidInput unless 1/64 ≤ m ≤ 64.
-  explicit BaseRenderer(double magnification = 1);
+  /// num_base_planes: coefficients that bases have, 1 or 3. Throws InvalidInput unless 1/64 ≤ m ≤ 64.
+  explicit BaseRenderer(double magnification = 1, int num_base_planes = 3);
 
-  /// planes: 1 or 3, of the magnified size; each gets its own coefficient (of 1 plane the first). Bases of scale 0 or
-  /// that are not finite are passed over.
+  /// planes: 1 or 3, of the magnified size; each gets its own coefficient (of 1 plane the first; three planes of bases
+  /// with one coefficient that one). Bases of scale 0 or that are not finite are passed over.
   void add(std::span<const Base> bases, Planes& planes);
   double magnification() const { return magnification_; }
 
@@ -31,7 +31,12 @@ class BaseRenderer {
   void add_gabor(const Base& base, Planes& planes);
   double evaluate_gabor(const Base& base, int left, int top, int width, int height);
 
+  float coefficient(const Base& base, std::size_t plane) const {
+    return base.coefficients[num_base_planes_ == 1 ? 0 : plane];
+  }
+
   double magnification_;
+  int num_base_planes_;
   std::vector<float> bell_, hat_, wave_cos_, wave_sin_, patch_;
 };
 

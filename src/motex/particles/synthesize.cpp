@@ -15,7 +15,7 @@
 namespace motex {
 namespace {
 
-void check(const TexturedMotion& model, const SynthesizeParticlesOptions& options) {
+void check_request(const TexturedMotion& model, const SynthesizeParticlesOptions& options) {
   check_options(options);
   if (model.width <= 0 || model.height <= 0 || model.num_frames <= 0)
     throw InvalidInput("the model has no picture size or no frames; learn it again");
@@ -37,7 +37,7 @@ void check(const TexturedMotion& model, const SynthesizeParticlesOptions& option
 
 CableSynthesizer::CableSynthesizer(const TexturedMotion& model, const SynthesizeParticlesOptions& options,
                                    std::int64_t loop_frames, const JobContext& job) {
-  check(model, options);
+  check_request(model, options);
   if (options.loop && loop_frames < 1) throw InvalidInput("a loop needs a number of frames");
   population_ = std::make_unique<Population>(model, options, options.loop ? loop_frames : 0);
   population_->settle(job);
@@ -52,6 +52,10 @@ bool CableSynthesizer::next_frame(MovetonFrame& frame) {
 }
 
 void CableSynthesizer::insert(const InsertedElement& element) { population_->insert(element); }
+
+void CableSynthesizer::check(const InsertedElement& element) const {
+  static_cast<void>(population_->examples_for(element));
+}
 
 const SynthesizeParticlesReport& CableSynthesizer::report() const { return population_->report(); }
 

@@ -90,6 +90,8 @@ class CableSynthesizer : public MovetonSource {
   /// It is there from the next frame on, and lives by the same dynamics and laws as others. Throws InvalidInput for a
   /// species that the model has not.
   void insert(const InsertedElement& element);
+  /// Throws what insert() would.
+  void check(const InsertedElement& element) const;
 
   const SynthesizeParticlesReport& report() const;
 

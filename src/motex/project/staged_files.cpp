@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/project/staged_files.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+
+#include "motex/core/error.h"
+
+namespace motex {
+namespace fs = std::filesystem;
+
+StagedFiles::~StagedFiles() {
+  std::error_code ec;
+  for (const fs::path& folder : folders_) fs::remove_all(folder, ec);
+}
+
+fs::path StagedFiles::stage(const fs::path& target) {
+  std::error_code ec;
+  const fs::file_status status = fs::status(target, ec);
+  if (fs::exists(status) && !fs::is_regular_file(status)) return target;
+  const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = parent / (".motex-part" + std::to_string(::getpid()));
+  if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) {
+    fs::create_directory(folder, ec);
+    if (ec) throw InvalidInput(target.string() + ": cannot be written there: " + ec.message());
+    folders_.push_back(folder);
+  }
+  files_.emplace_back(folder / target.filename(), target);
+  return files_.back().first;
+}
+
+void StagedFiles::commit() {
+  std::error_code ec;
+  for (const auto& [staged, target] : files_) {
+    fs::rename(staged, target, ec);
+    if (ec) throw WriteError(target.string() + ": cannot be replaced: " + ec.message());
+  }
+  files_.clear();
+}
+
+}  // namespace motex
