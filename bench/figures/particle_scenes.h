@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "motex/core/files.h"
 #include "motex/particles/bird_painter.h"
 #include "motex/particles/clip_background.h"
 #include "motex/particles/frame_painter.h"
@@ -15,6 +17,7 @@
 #include "motex/particles/simulate.h"
 #include "motex/particles/synthesize.h"
 #include "motex/project/load_video_clip.h"
+#include "motex/project/textured_motion_file.h"
 
 /// Clips that the figures of [TM02] are made from, and their learned models.
 namespace motex::bench {
@@ -46,13 +49,22 @@ inline std::filesystem::path find_clip(const std::filesystem::path& data, std::i
   return {};
 }
 
+/// Learning takes minutes: with MOTEX_FIGURE_MODELS = a folder, models are kept there and taken from there.
 inline void learn(Scene& scene, const LearnTexturedMotionOptions& options = {}) {
+  const char* kept = std::getenv("MOTEX_FIGURE_MODELS");
+  std::filesystem::path file;
+  if (kept != nullptr && *kept != '\0') file = std::filesystem::path(kept) / (scene.what + "_" + scene.name + ".motex");
+  if (!file.empty() && std::filesystem::is_regular_file(file)) {
+    scene.model = load_textured_motion(file);
+    return;
+  }
   const auto start = std::chrono::steady_clock::now();
   LearnedTexturedMotion learned = learn_textured_motion(scene.clip, options);
   scene.model = std::move(learned.model);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   std::printf("%s (%s): %d frames, %zu cables, %zu templates, %.1f s\n", scene.what.c_str(), scene.name.c_str(),
               scene.clip.num_frames(), scene.model.cables.size(), scene.model.templates.size(), took.count());
+  if (!file.empty()) write_file(file, textured_motion_bytes(scene.model));
 }
 
 inline Scene make_scene(const std::string& what, const std::filesystem::path& path, int first, int num_frames,
@@ -73,7 +85,7 @@ inline Scene make_scene(const std::string& what, const std::filesystem::path& pa
 }
 
 inline Scene snow_scene(const std::filesystem::path& data) {
-  Scene scene = make_scene("snow", find_clip(data, {"snow_forest_320x240.mp4"}), 0, 60, [] {
+  Scene scene = make_scene("snow", find_clip(data, {"snow_forest_320x240.mp4"}), 0, 40, [] {
     SimulateSnowOptions options;
     options.frames = 60;
     return simulate_snow(options);
@@ -99,7 +111,7 @@ inline Scene firework_scene(const std::filesystem::path& data) {
 inline bool waterfall_scene(const std::filesystem::path& data, Scene& scene) {
   const std::filesystem::path path = find_clip(data, {"waterfall_kjos_320x240.mp4"});
   if (path.empty()) return false;
-  scene = make_scene("waterfall", path, 0, 60, [] { return SimulatedScene(); });
+  scene = make_scene("waterfall", path, 0, 40, [] { return SimulatedScene(); });
   learn(scene);
   scene.drops = scene.model;
   return true;

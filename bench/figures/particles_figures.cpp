@@ -3,9 +3,9 @@
 // The figures of [TM02], from real clips: particles_figures FOLDER OUT [FIRST …]. FOLDER holds textured/ (or is
 // ../shared/data/video); without it scenes are simulated and the waterfall is left out. What is learned, and for how
 // long, is printed.
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <set>
 
 #include "bench/figures/particle_scenes.h"
@@ -73,7 +73,9 @@ class Figures {
   }
   void write(int figure, const std::string& title, const std::vector<Drawing>& parts) const;
 
-  void dictionary_and_cable(const Scene& snow) const;            ///< Figure 1
+  const Scene& snow_learned();
+  const Scene& birds_learned();
+  void dictionary_and_cable() const;                             ///< Figure 1
   void reconstructions(const Scene& snow) const;                 ///< Figure 2
   void wing_states(const Scene& birds) const;                    ///< Figure 5
   void birds_in_space(const Scene& birds) const;                 ///< Figure 6
@@ -83,6 +85,7 @@ class Figures {
 
   std::filesystem::path data_, folder_;
   std::set<int> wanted_;
+  std::optional<Scene> snow_, birds_;
 };
 
 void Figures::write(int figure, const std::string& title, const std::vector<Drawing>& parts) const {
@@ -102,15 +105,25 @@ void Figures::write(int figure, const std::string& title, const std::vector<Draw
 
 // ---- Snow ----
 
+const Scene& Figures::snow_learned() {
+  if (!snow_) snow_ = motex::bench::snow_scene(data_);
+  return *snow_;
+}
+
+const Scene& Figures::birds_learned() {
+  if (!birds_) birds_ = motex::bench::bird_scene(data_);
+  return *birds_;
+}
+
 void Figures::snow() {
-  if (!wants({1, 2, 3, 4})) return;
-  const Scene scene = motex::bench::snow_scene(data_);
-  if (wants({1})) dictionary_and_cable(scene);
-  if (wants({2})) reconstructions(scene);
-  if (wants({3}))
+  if (wants({1})) snow_learned(), birds_learned(), dictionary_and_cable();
+  if (wants({2})) reconstructions(snow_learned());
+  if (wants({3})) {
+    const motex::TexturedMotion& model = snow_learned().model;
     write(3, "templates of snow flakes, and 120 movetons drawn from them",
-          {motex::templates_picture(scene.model), motex::sampled_movetons_picture(scene.model, 120, 20, 1)});
-  if (wants({4})) paths_and_maps(4, scene);
+          {motex::templates_picture(model), motex::sampled_movetons_picture(model, 120, 20, 1)});
+  }
+  if (wants({4})) paths_and_maps(4, snow_learned());
 }
 
 /// Of the cables with most coils one that lives about `frames` long, that part of it.
@@ -129,14 +142,27 @@ motex::Cable example_cable(const motex::TexturedMotion& model, std::int64_t fram
   return part;
 }
 
-void Figures::dictionary_and_cable(const Scene& snow) const {
-  const motex::Cable cable = example_cable(snow.model, 24);
-  std::vector<Panel> panels{{"(a) base functions", motex::base_functions_picture(88)}};
-  if (!snow.model.templates.empty())
-    panels.push_back({"(b) a moveton", motex::template_sketch(snow.model.templates[0], snow.model.num_planes, 280)});
-  panels.push_back({"(c) a cable: core and " + std::to_string(cable.coils.size()) + " coils in x, y, t",
-                    motex::cable_picture(cable, 420, 284)});
-  write(1, "base functions with their symbols, a moveton and a cable", {side_by_side(panels)});
+/// Symbols of its commonest template: of the states the one with most coils.
+Drawing moveton_sketch(const motex::TexturedMotion& model, double size) {
+  if (model.templates.empty()) return {size, size, {255, 255, 255, 255}, {}};
+  motex::MovetonTemplate shown = model.templates[0];
+  const auto most = std::max_element(shown.poses.begin(), shown.poses.end(),
+                                     [](const auto& a, const auto& b) { return a.coils.size() < b.coils.size(); });
+  shown.poses = {*most};
+  return motex::template_sketch(shown, model.num_planes, size);
+}
+
+void Figures::dictionary_and_cable() const {
+  const motex::Cable cable = example_cable(birds_->model, 30);
+  Drawing movetons{130, 284, {255, 255, 255, 255}, {}};
+  motex::append(movetons, moveton_sketch(snow_->model, 124), {0, 0});
+  motex::append(movetons, moveton_sketch(birds_->model, 124), {0, 146});
+  write(1, "base functions with their symbols, movetons, and a cable",
+        {side_by_side(
+            {{"(a) base functions", motex::base_functions_picture(88)},
+             {"(b) flake, bird", movetons},
+             {"(c) a cable in x, y, t: the core of a bird and its " + std::to_string(cable.coils.size()) + " coils",
+              motex::cable_picture(cable, 460, 284)}})});
 }
 
 void Figures::reconstructions(const Scene& snow) const {
@@ -194,7 +220,7 @@ void Figures::observed_and_synthesized(int figure, const Scene& scene, const mot
 
 void Figures::birds() {
   if (!wants({5, 6, 7, 8, 9})) return;
-  const Scene scene = motex::bench::bird_scene(data_);
+  const Scene& scene = birds_learned();
   if (wants({5})) wing_states(scene);
   if (wants({6})) birds_in_space(scene);
   if (wants({7})) observed_and_synthesized(7, scene, {}, "");

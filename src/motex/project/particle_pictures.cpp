@@ -77,7 +77,7 @@ Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, d
     if (line.points.size() < 2) continue;
     const Point birth = line.points.front();
     drawing.add(std::move(line));
-    drawing.add(Disc{birth, 1.6, kBirth});
+    if (cable.first_frame > 0) drawing.add(Disc{birth, 1.6, kBirth});
   }
   add_border(drawing);
   return drawing;

@@ -16,8 +16,8 @@ namespace motex {
 /// The three base functions as light, each with its symbol beside it ([TM02] Figure 1a).
 Drawing base_functions_picture(double cell = 90);
 
-/// Paths of cores on white, frames long at least `min_frames`, with a dot where each is born ([TM02] Figures 4b, 8a,
-/// 11a, 13a). Ink by how long they live.
+/// Paths of cores on white, at least `min_frames` long, with a red dot where each is born after the first frame ([TM02]
+/// Figures 4b, 8a, 11a, 13a).
 Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, double magnification = 1,
                       int min_frames = 3);
 
