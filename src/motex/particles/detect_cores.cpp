@@ -21,6 +21,7 @@ constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
 constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
 constexpr double kGaussianMisfit = 0.04;   // up to that an element is a Gaussian, from twice that it has parts
+constexpr double kFaint = 0.08;           // of the amplitude that most of the energy has
 constexpr double kSuspicious = 2;         // deviations of the mean square of what a spot leaves
 constexpr double kSplitGain = 35;         // of the squared error in squared noises, for four more parameters
 constexpr double kAgreement = 0.4;        // of the amplitude expected: the frame agrees with a guess
@@ -103,7 +104,7 @@ class Detector {
         find_blob_peaks(fitter_.residual(), round == 0 ? options_.max_scale : std::min(3.0, options_.max_scale),
                         options_.min_significance * noise_, options_.sign == CoreSign::kBoth);
     for (const BlobPeak& peak : peaks) {
-      if (is_shadowed(peak, num_before)) continue;
+      if (std::abs(peak.amplitude) < 0.7 * options_.min_amplitude || is_shadowed(peak, num_before)) continue;
       fitter_.add({peak.x, peak.y, std::log(peak.scale), 0, 0, peak.amplitude});
     }
     return fitter_.blobs().size() > num_before;
@@ -179,6 +180,7 @@ class Detector {
     const Facts& own = facts_[k];
     if (options_.sign != CoreSign::kBoth && blob.amplitude <= 0) return true;
     if (std::abs(blob.amplitude) < 0.7 * options_.min_significance * blob.amplitude_spread) return true;
+    if (std::abs(blob.amplitude) < options_.min_amplitude) return true;
     if (own.scale > 1.2 * options_.max_scale) return true;
     if (own.energy < options_.min_significance * noise_ * 0.7) return true;
     for (std::size_t m = 0; m < blobs.size(); ++m) {
@@ -231,16 +233,32 @@ std::vector<Plane> sample_of(const std::vector<Plane>& residuals) {
   return sample;
 }
 
-CoreSign decided_sign(const std::vector<Plane>& sample, double noise, const DetectOptions& options) {
+CoreSign sign_of(const std::vector<BlobPeak>& peaks) {
   double bright = 0, all = 0;
-  for (const Plane& residual : sample)
-    for (const BlobPeak& peak : find_blob_peaks(residual, options.max_scale, options.min_significance * noise, true)) {
-      const double energy = peak.response * peak.response;
-      all += energy;
-      if (peak.amplitude > 0) bright += energy;
-    }
+  for (const BlobPeak& peak : peaks) {
+    const double energy = peak.response * peak.response;
+    all += energy;
+    if (peak.amplitude > 0) bright += energy;
+  }
   if (bright >= kOneSigned * all) return CoreSign::kBright;
   return bright <= (1 - kOneSigned) * all ? CoreSign::kDark : CoreSign::kBoth;
+}
+
+/// The amplitude above which half of the energy lies.
+double main_amplitude(std::vector<BlobPeak> peaks, CoreSign sign) {
+  std::erase_if(peaks, [&](const BlobPeak& peak) {
+    return (sign == CoreSign::kBright && peak.amplitude < 0) || (sign == CoreSign::kDark && peak.amplitude > 0);
+  });
+  std::sort(peaks.begin(), peaks.end(), [](const BlobPeak& a, const BlobPeak& b) {
+    return std::abs(a.amplitude) > std::abs(b.amplitude);
+  });
+  double all = 0, sum = 0;
+  for (const BlobPeak& peak : peaks) all += peak.response * peak.response;
+  for (const BlobPeak& peak : peaks) {
+    sum += peak.response * peak.response;
+    if (2 * sum >= all) return std::abs(peak.amplitude);
+  }
+  return 0;
 }
 
 bool stands_alone(const std::vector<Blob>& blobs, std::size_t k) {
@@ -295,7 +313,14 @@ double noise_of(const std::vector<Plane>& residuals) {
 DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise) {
   DetectOptions out = options;
   const std::vector<Plane> sample = sample_of(residuals);
-  if (out.sign == CoreSign::kAuto) out.sign = decided_sign(sample, noise, options);
+  std::vector<BlobPeak> peaks;
+  for (const Plane& residual : sample) {
+    const std::vector<BlobPeak> here =
+        find_blob_peaks(residual, options.max_scale, options.min_significance * noise, true);
+    peaks.insert(peaks.end(), here.begin(), here.end());
+  }
+  if (out.sign == CoreSign::kAuto) out.sign = sign_of(peaks);
+  out.min_amplitude = kFaint * main_amplitude(peaks, out.sign);
   std::vector<double> aspects, misfits;
   for (const Plane& residual : sample)
     for (const Blob& blob : outstanding(residual, noise, out, misfits)) aspects.push_back(blob.aspect());

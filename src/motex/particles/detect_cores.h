@@ -21,6 +21,8 @@ struct DetectOptions {
   CoreShape shape = CoreShape::kAuto;
   /// Deviation of elements from the fitted shape relative to their peak; measured by decided().
   double shape_misfit = 0;
+  /// Least |amplitude|, grey levels: what is far fainter than the elements that make up the clip is flicker. Likewise.
+  double min_amplitude = 0;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
@@ -40,7 +42,7 @@ struct DetectOptions {
 double noise_of(const std::vector<Plane>& residuals);
 
 /// The options with sign and shape decided by the elements that stand out most in up to seven of the frames, and
-/// shape_misfit measured on those that stand alone.
+/// shape_misfit measured on those that stand alone, min_amplitude on all.
 DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& residuals, double noise);
 
 /// An element expected in a frame because its path leads there.
