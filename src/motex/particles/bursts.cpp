@@ -11,54 +11,91 @@
 
 #include "motex/core/matrix.h"
 #include "motex/core/options_check.h"
+#include "motex/particles/fit_dynamics.h"
 
 namespace motex {
 namespace {
 
-constexpr int kFramesOfBeginning = 8;
+constexpr int kFramesOfBeginning = 12;
+// first places are drawn away from the crowd that they come out of, when there are later ones to go by
+constexpr int kDoubtfulFrames = 5;
+constexpr double kDoubt = 0.05;
 constexpr double kCell = 6;              // pixels, of the votes
 constexpr double kPlaceDeviation = 0.5;  // pixels, of a measured place
 constexpr double kGate = 3;              // deviations within which a path goes through the origin
 constexpr double kOneSided = 0.8;        // mean length of the sum of unit velocities: all the same way = 1
 constexpr int kRounds = 12;
 constexpr int kSectors = 12;
+constexpr double kStragglersWithin = 16;    // pixels of a burst's origin
+constexpr double kLeastPersistence = 0.85;  // of what flies by itself after a burst
 
-/// Quadratic path near the beginning of a cable: p(t) = place + velocity (t − t₀) + ½ acceleration (t − t₀)².
+/// What all paths of a burst share: velocity v_t = φ v_{t−1} + pull. φ = 1, no pull: straight ones.
+struct Drag {
+  double persistence = 1;
+  std::array<double, 2> pull{};
+
+  /// Way of unit first velocity after so many frames (before, where negative), and its slope.
+  double way(double frames) const {
+    return persistence == 1 ? frames : (std::pow(persistence, frames) - 1) / (persistence - 1);
+  }
+  double way_slope(double frames) const {
+    return persistence == 1 ? 1 : std::pow(persistence, frames) * std::log(persistence) / (persistence - 1);
+  }
+  /// Way by the pull alone, and its slope.
+  double pulled(std::size_t axis, double frames) const {
+    if (persistence == 1) return pull[axis] * frames * (frames - 1) / 2;
+    return pull[axis] * (frames - way(frames)) / (1 - persistence);
+  }
+  double pulled_slope(std::size_t axis, double frames) const {
+    if (persistence == 1) return pull[axis] * (frames - 0.5);
+    return pull[axis] * (1 - way_slope(frames)) / (1 - persistence);
+  }
+};
+
+/// Path near the beginning of a cable: p(t) = place + velocity · way(t − t₀) + ½ acceleration (t − t₀)² + pulled(t −
+/// t₀).
 struct Beginning {
   int cable = 0;
   double frame = 0;
-  std::array<std::array<double, 3>, 2> path{};  ///< of x and y
+  Drag drag;
+  std::array<std::array<double, 3>, 2> path{};  ///< place, velocity, acceleration of x and of y
   Eigen::Matrix3d covariance;                   ///< of the three numbers, for a deviation of 1 pixel
 
   double at(std::size_t axis, double t) const {
     const double d = t - frame;
-    return path[axis][0] + d * (path[axis][1] + d * path[axis][2] / 2);
+    return path[axis][0] + drag.way(d) * path[axis][1] + d * d * path[axis][2] / 2 + drag.pulled(axis, d);
   }
-  double velocity(std::size_t axis, double t) const { return path[axis][1] + (t - frame) * path[axis][2]; }
+  double velocity(std::size_t axis, double t) const {
+    const double d = t - frame;
+    return drag.way_slope(d) * path[axis][1] + d * path[axis][2] + drag.pulled_slope(axis, d);
+  }
   /// Of a place at that time.
   double variance(double t) const {
-    const Eigen::Vector3d row(1, t - frame, (t - frame) * (t - frame) / 2);
+    const double d = t - frame;
+    const Eigen::Vector3d row(1, drag.way(d), d * d / 2);
     return kPlaceDeviation * kPlaceDeviation * (1 + row.dot(covariance * row));
   }
 };
 
-Beginning beginning_of(const Cable& cable, int idx) {
+/// acceleration: deviation of what the drag does not explain, pixels a frame².
+Beginning beginning_of(const Cable& cable, int idx, const Drag& drag = {}, double acceleration = 0.15) {
   const int num = std::min(static_cast<int>(cable.core.size()), kFramesOfBeginning);
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right_x = Eigen::Vector3d::Zero(), right_y = Eigen::Vector3d::Zero();
   for (int k = 0; k < num; ++k) {
-    const Eigen::Vector3d row(1, k, 0.5 * k * k);
-    normal += row * row.transpose();
-    right_x += row * cable.core[static_cast<std::size_t>(k)].x;
-    right_y += row * cable.core[static_cast<std::size_t>(k)].y;
+    const Eigen::Vector3d row(1, drag.way(k), 0.5 * k * k);
+    const double weight = k < kDoubtfulFrames && num >= 2 * kDoubtfulFrames ? kDoubt : 1;
+    normal += weight * row * row.transpose();
+    right_x += weight * row * (cable.core[static_cast<std::size_t>(k)].x - drag.pulled(0, k));
+    right_y += weight * row * (cable.core[static_cast<std::size_t>(k)].y - drag.pulled(1, k));
   }
-  // accelerations are of the order of 0.15 pixels a frame²; short beginnings say nothing about them
-  normal(2, 2) += kPlaceDeviation * kPlaceDeviation / (0.15 * 0.15);
+  normal(2, 2) += kPlaceDeviation * kPlaceDeviation / (acceleration * acceleration);
   const Eigen::LDLT<Eigen::Matrix3d> factor(normal);
   const Eigen::Vector3d x = factor.solve(right_x), y = factor.solve(right_y);
   Beginning out;
   out.cable = idx;
   out.frame = static_cast<double>(cable.first_frame);
+  out.drag = drag;
   out.path = {{{x[0], x[1], x[2]}, {y[0], y[1], y[2]}}};
   out.covariance = factor.solve(Eigen::Matrix3d::Identity());
   return out;
@@ -180,6 +217,47 @@ Burst burst_at(const Peak& peak, std::vector<Beginning>& left, const FindBurstsO
   return burst;
 }
 
+/// The burst that this one is a part of: its stragglers, whose paths bend more.
+Burst* whole_of(const Burst& part, std::vector<Burst>& bursts, double max_delay) {
+  for (Burst& burst : bursts)
+    if (std::abs(burst.frame - part.frame) <= max_delay &&
+        std::hypot(burst.x - part.x, burst.y - part.y) < kStragglersWithin)
+      return &burst;
+  return nullptr;
+}
+
+/// Once members are known they tell drag and gravity, which carry paths back better than parabolas do.
+void refine(std::span<const Cable> cables, std::vector<Burst>& bursts) {
+  std::vector<Cable> members;  // without their doubtful places
+  for (const Burst& burst : bursts) {
+    for (const int idx : burst.cables) {
+      const Cable& cable = cables[static_cast<std::size_t>(idx)];
+      if (cable.core.size() < 2 * kDoubtfulFrames) continue;
+      members.emplace_back().core.assign(cable.core.begin() + kDoubtfulFrames, cable.core.end());
+    }
+  }
+  if (members.size() < 8) return;
+  FitDynamicsOptions measured;
+  measured.estimate_errors = true;
+  const MovetonDynamics dynamics = fit_dynamics(members, measured);
+  const double persistence = (dynamics.x.persistence() + dynamics.y.persistence()) / 2;
+  if (persistence < kLeastPersistence || persistence >= 1) return;
+  const Drag drag{persistence, {dynamics.x.c, dynamics.y.c}};
+  for (Burst& burst : bursts) {
+    std::vector<Beginning> own;
+    for (const int idx : burst.cables)
+      own.push_back(beginning_of(cables[static_cast<std::size_t>(idx)], idx, drag, 0.02));
+    Burst better = burst;
+    bool solved = true;
+    for (int round = 0; round < kRounds && solved; ++round) solved = step_towards_origin(own, 4.0, better);
+    if (!solved || std::abs(better.frame - burst.frame) > 4 || std::hypot(better.x - burst.x, better.y - burst.y) > 12)
+      continue;
+    burst.x = better.x;
+    burst.y = better.y;
+    burst.frame = better.frame;
+  }
+}
+
 }  // namespace
 
 std::vector<Burst> find_bursts(std::span<const Cable> cables, const FindBurstsOptions& options) {
@@ -196,11 +274,16 @@ std::vector<Burst> find_bursts(std::span<const Cable> cables, const FindBurstsOp
       if (++attempts > 20) break;
       Burst burst = burst_at(peak, left, options);
       if (burst.cables.empty()) continue;
-      bursts.push_back(std::move(burst));
+      if (Burst* whole = whole_of(burst, bursts, options.max_delay); whole != nullptr)
+        whole->cables.insert(whole->cables.end(), burst.cables.begin(), burst.cables.end());
+      else
+        bursts.push_back(std::move(burst));
       found = true;
       break;
     }
   }
+  refine(cables, bursts);
+  for (Burst& burst : bursts) std::sort(burst.cables.begin(), burst.cables.end());
   std::stable_sort(bursts.begin(), bursts.end(), [](const Burst& a, const Burst& b) { return a.frame < b.frame; });
   return bursts;
 }

@@ -31,9 +31,7 @@ double value_of(const Base& base, Coordinate coordinate) {
     case Coordinate::kAmplitude:
       break;
   }
-  // grey clips leave the other planes empty
-  if (base.coefficients[1] == 0 && base.coefficients[2] == 0) return peak_amplitude(base);
-  return 0.299 * peak_amplitude(base, 0) + 0.587 * peak_amplitude(base, 1) + 0.114 * peak_amplitude(base, 2);
+  return peak_amplitude(base);
 }
 
 DynamicsPrior prior_of(Coordinate coordinate, double steps) {

@@ -56,6 +56,7 @@ struct FitDynamicsReport {
 /// of a Kalman filter is maximised instead over φ, d, c_spread and, on request, the error; other coordinates then have
 /// b = 0.
 /// Steps more than seven robust deviations away from the others are left out and cut the cable in two.
+/// Amplitudes are those of plane 0: for coloured cables put the luma's coefficient there.
 /// Prior: prior_steps steps of persistence 0.7 and typical noise; it alone speaks when there is no step.
 /// The texton fit of module lds does not serve here: it knows neither a + b = 1, nor effects of one cable, nor errors.
 /// Cost: O(steps) once, then O(cables) for each step of the search (exact) or O(steps), about 300 times (measured).

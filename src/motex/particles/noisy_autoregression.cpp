@@ -12,6 +12,7 @@ namespace motex {
 namespace {
 
 constexpr double kLargestPersistence = 0.995;
+constexpr double kObjection = 2.5;  // standard errors
 
 struct Parameters {
   double persistence, noise_variance, spread_variance, error_variance, start_variance;
@@ -138,9 +139,10 @@ Likelihood evaluate(const std::vector<CoordinateSeries>& series, MeasuredValue k
   if (determinant > 1e-9 * a00 * a11) {
     out.mean = (b0 * a11 - b1 * a01) / determinant;
     out.first_u = (b1 * a00 - b0 * a01) / determinant;
-  } else {
-    out.mean = b0 / a00;
+    // a steady process begins at its mean, and the beginnings help to find it
+    if (out.first_u * out.first_u * determinant < kObjection * kObjection * a00) out.first_u = 0;
   }
+  if (out.first_u == 0) out.mean = b0 / a00;
   squares -= out.mean * b0 + out.first_u * b1;
   out.value = -0.5 * (log_det + squares);
   return out;

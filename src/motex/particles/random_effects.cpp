@@ -13,6 +13,7 @@ namespace {
 
 // columns: x_{t−1}, x_{t−2}, 1, x_first − start_mean, x_t
 constexpr int kLag1 = 0, kLag2 = 1, kOne = 2, kStart = 3, kNow = 4, kColumns = 5;
+constexpr double kObjection = 2.5;  // standard errors
 using Row = Eigen::Matrix<double, kColumns, 1>;
 using Moments = Eigen::Matrix<double, kColumns, kColumns>;
 using Regressors = Eigen::Matrix<double, kNow, 1>;
@@ -150,9 +151,11 @@ AutoregressionFit fit_random_effects(const std::vector<CoordinateSeries>& series
   AutoregressionFit fit;
   fit.lag1 = solution.coefficients[kLag1];
   fit.lag2 = order == 2 ? solution.coefficients[kLag2] : 0;
-  const double centre = data.centre * (1 - fit.lag1 - fit.lag2);
-  fit.constant = centre + (data.count > 0 ? solution.coefficients[kOne] : 0);
-  if (data.count == 0) fit.constant = (1 - fit.lag1 - fit.lag2) * data.start_mean;
+  // the mean of all values is the better estimate of where a steady process stays, unless the regression objects
+  const double intercept = data.count > 0 ? solution.coefficients[kOne] : 0;
+  const double variance = solution.covariance(kOne, kOne) * solution.noise_variance;
+  const bool is_steady = intercept * intercept < kObjection * kObjection * variance;
+  fit.constant = data.centre * (1 - fit.lag1 - fit.lag2) + (is_steady ? 0 : intercept);
   fit.noise = std::sqrt(solution.noise_variance);
   fit.slope = slope;
   fit.start_mean = data.start_mean;
