@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "motex/particles/learn.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/synthesize.h"
+#include "motex/particles/water_synthesis.h"
 #include "motex/project/load_video_clip.h"
 #include "motex/project/textured_motion_file.h"
 
@@ -27,8 +29,7 @@ struct Scene {
   std::string name;  ///< the file, or "simulated"
   ClipFrames clip;
   TexturedMotion model;
-  TexturedMotion drops;  ///< of water: movetons as groups of bases
-  int least_path = 5;    ///< frames, of paths that are shown
+  int least_path = 5;  ///< frames, of paths that are shown
 
   int frame_of_column(int column, int num_columns) const {
     return (2 * column + 1) * clip.num_frames() / (2 * num_columns);
@@ -111,24 +112,39 @@ inline Scene firework_scene(const std::filesystem::path& data) {
 inline bool waterfall_scene(const std::filesystem::path& data, Scene& scene) {
   const std::filesystem::path path = find_clip(data, {"waterfall_kjos_320x240.mp4"});
   if (path.empty()) return false;
-  scene = make_scene("waterfall", path, 0, 40, [] { return SimulatedScene(); });
+  scene = make_scene("waterfall", path, 0, 60, [] { return SimulatedScene(); });
   learn(scene);
-  scene.drops = scene.model;
   return true;
+}
+
+/// The same water as separate elements: what drops look like. From half as many frames.
+inline Scene drop_scene(const std::filesystem::path& data) {
+  Scene scene =
+      make_scene("drops", find_clip(data, {"waterfall_kjos_320x240.mp4"}), 0, 30, [] { return SimulatedScene(); });
+  LearnTexturedMotionOptions options;
+  options.tracking = TrackingKind::kCores;
+  learn(scene, options);
+  return scene;
 }
 
 /// Evenly over as many synthesized frames as the clip has.
 inline std::vector<Image> synthesized_pictures(const Scene& scene, const SynthesizeParticlesOptions& options,
                                                int count) {
-  CableSynthesizer source(scene.model, options);
-  PhotoPainter painter(scene.model.background, 1);
+  std::unique_ptr<MovetonSource> source;
+  std::unique_ptr<FramePainter> painter;
+  if (scene.model.water) {
+    source = std::make_unique<WaterSource>(scene.model, WaterReplayOptions(), options.seed);
+    painter = std::make_unique<WaterPainter>(scene.model, scene.model.background, 1, options.seed);
+  } else {
+    source = std::make_unique<CableSynthesizer>(scene.model, options);
+    painter = std::make_unique<PhotoPainter>(scene.model.background, 1);
+  }
   std::vector<Image> pictures;
   MovetonFrame frame;
   Image picture, layer;
-  for (int t = 0; static_cast<int>(pictures.size()) < count && source.next_frame(frame); ++t) {
-    if (t != scene.frame_of_column(static_cast<int>(pictures.size()), count)) continue;
-    painter.paint(frame, picture, layer);
-    pictures.push_back(picture);
+  for (int t = 0; static_cast<int>(pictures.size()) < count && source->next_frame(frame); ++t) {
+    painter->paint(frame, picture, layer);
+    if (t == scene.frame_of_column(static_cast<int>(pictures.size()), count)) pictures.push_back(picture);
   }
   return pictures;
 }
