@@ -125,7 +125,9 @@ struct Synthesize {
     const JobContext job = session.job(0, 0.05);
     std::unique_ptr<CableSynthesizer> synthesizer;
     std::unique_ptr<MovetonSource> learned;
-    if (draw.from == From::kSynthesis)
+    if (draw.from == From::kSynthesis && model.water)
+      learned = make_water(model, num_frames);
+    else if (draw.from == From::kSynthesis)
       synthesizer = std::make_unique<CableSynthesizer>(model, options, num_frames, job);
     else
       learned = std::make_unique<LearnedMovetons>(model);
@@ -147,6 +149,19 @@ struct Synthesize {
   }
 
  private:
+  /// Water is born jointly: options that place elements one by one have no meaning there.
+  std::unique_ptr<MovetonSource> make_water(const TexturedMotion& model, std::int64_t num_frames) const {
+    const bool placed = options.rate != 1 || options.gravity != 0 || options.speed != 1 || options.uniform ||
+                        options.appearance != ParticleAppearance::kReplay || !wind.empty() || !source_map.empty() ||
+                        !sink_map.empty() || !looks.empty();
+    if (placed)
+      throw InvalidInput(model_path +
+                         ": is a model of water, whose bases are born together; --rate, --gravity, --speed, --uniform, "
+                         "--appearance, --wind, --source-map, --sink-map and --template go with elements (learn with "
+                         "--tracking cores)");
+    return std::make_unique<WaterSource>(model, WaterReplayOptions{}, options.seed, options.loop ? num_frames : 0);
+  }
+
   static std::vector<std::string> paths_of(const ParticleOutputs& outputs) {
     return {outputs.video.string(), outputs.tracks.string(), outputs.layer.string()};
   }
@@ -236,6 +251,7 @@ struct Synthesize {
       Planes planes = magnified_background(model, draw.scale, picture);
       if (planes.size() == 1 && base_planes(model) == 3) planes = Planes(3, planes[0]);
       if (draw.three_d) return std::make_unique<BirdPainter>(model, std::move(planes), draw.scale, flight);
+      if (model.water) return std::make_unique<WaterPainter>(model, std::move(planes), draw.scale, options.seed);
       return std::make_unique<PhotoPainter>(std::move(planes), draw.scale, base_planes(model));
     }
     const DrawnStyle drawn = draw.style == Style::kSymbolic ? DrawnStyle::kSymbolic : DrawnStyle::kCartoon;
