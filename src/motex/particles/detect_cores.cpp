@@ -190,7 +190,9 @@ class Detector {
       const double least = 0.3 * std::min(own.scale, other.scale);
       if (distance < least * least) return true;
       if (std::abs(blob.amplitude) < weakest_beside() * shadow(blobs[m], blob.x, blob.y)) return true;
-      if (structure_ > 0 && distance_in(blobs[m], blob.x, blob.y) < 2.5 * structure_) return true;
+      if (structure_ <= 0) continue;
+      const double deviations = distance_in(blobs[m], blob.x, blob.y);
+      if (deviations < 2.5 * structure_ || (deviations < 4 * structure_ && own.energy < 0.5 * other.energy)) return true;
     }
     return false;
   }

@@ -113,6 +113,8 @@ bool is_element(const SightChain& chain, const ElementModel& model, int width, i
   if (static_cast<int>(chain.sights.size()) >= min_frames) return true;
   const PictureEdges edges{static_cast<double>(width), static_cast<double>(height)};
   const Sight &first = chain.sights.front(), &last = chain.sights.back();
+  const auto is_inside = [&](const Sight& s) { return s.x > -0.5 && s.y > -0.5 && s.x < width - 0.5 && s.y < height - 0.5; };
+  if (std::none_of(chain.sights.begin(), chain.sights.end(), is_inside)) return false;
   return (first.frame == 0 || edges.is_entering(model, first.x, first.y)) &&
          (last.frame == num_frames - 1 || edges.is_leaving(model, last.x, last.y));
 }
