@@ -18,6 +18,7 @@
 #include "motex/particles/background.h"
 #include "motex/particles/coils.h"
 #include "motex/particles/refine.h"
+#include "motex/particles/regroup.h"
 #include "motex/particles/templates.h"
 #include "motex/project/load_video_clip.h"
 #include "motex/project/textured_motion_file.h"
@@ -171,7 +172,13 @@ void measure(const std::filesystem::path& video, const std::filesystem::path& tr
       video.filename().string().c_str(), cables.size(), static_cast<double>(elements) / clip.num_frames(),
       report.background_psnr, report.cores_psnr, report.psnr, report.bases_per_moveton, 100 * report.isolated_share,
       report.noise, grown - start);
-  const double begin = processor_secs();
+  double begin = processor_secs();
+  learn_templates(cables, clip.num_planes());
+  const double regrouping = processor_secs();
+  const GrowCoilsReport again = regroup_coils(clip, background, {}, cables);
+  std::printf("    templates %.2f s; regrouped %.2f dB in %.2f s\n", regrouping - begin, again.psnr,
+              processor_secs() - regrouping);
+  begin = processor_secs();
   const std::vector<MovetonTemplate> templates = learn_templates(cables, clip.num_planes());
   std::printf("    %zu species in %.2f s:", templates.size(), processor_secs() - begin);
   for (const MovetonTemplate& one : templates) {

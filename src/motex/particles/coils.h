@@ -51,7 +51,19 @@ struct GrowCoilsReport {
 GrowCoilsReport grow_coils(const ClipFrames& clip, const Planes& background, std::vector<Cable>& cables,
                            const GrowCoilsOptions& options = {}, const JobContext& job = {});
 
+/// The same where the background differs from frame to frame (a moving camera): residuals = luma minus background of
+/// each frame; `background` is that of one of them and tells its colours.
+GrowCoilsReport grow_coils(const ClipFrames& clip, const Planes& background, const std::vector<Plane>& residuals,
+                           std::vector<Cable>& cables, const GrowCoilsOptions& options, const JobContext& job);
+
 /// For each cable and frame whether nothing else lies within reach: |distance| > reach · (scale + other scale).
 std::vector<std::vector<char>> isolated_frames(const std::vector<Cable>& cables, double reach);
+
+class MovetonLight;
+/// The search itself: coils besides those that the cables have, up to max_coils of each; which: one a cable, 0 = none.
+void add_coils(MovetonLight& light, std::vector<Cable>& cables, const std::vector<char>& which,
+               const GrowCoilsOptions& options, double noise, const JobContext& job);
+/// Fills in bases_per_moveton and isolated_share.
+void count_bases(const std::vector<Cable>& cables, double reach, GrowCoilsReport& report);
 
 }  // namespace motex

@@ -11,6 +11,7 @@
 #include "motex/particles/coils.h"
 #include "motex/particles/fit_dynamics.h"
 #include "motex/particles/learn_water.h"
+#include "motex/particles/regroup.h"
 #include "motex/particles/templates.h"
 #include "motex/particles/track_elements.h"
 
@@ -103,8 +104,13 @@ class Learning {
   void grow() {
     GrowCoilsOptions grow_options;
     if (!options_.coils) grow_options.max_coils = 0;
-    grow_coils(clip_, background_.still(), model().cables, grow_options, part(0.7, 0.9));
+    grow_coils(clip_, background_.still(), moving_residuals(), model().cables, grow_options, part(0.7, 0.9));
     background_.refresh(clip_, model().cables, job_);
+  }
+
+  /// Where the background is not the same in all frames.
+  std::vector<Plane> moving_residuals() const {
+    return background_.kind() == BackgroundKind::kSmooth ? background_.residuals() : std::vector<Plane>();
   }
 
   /// Species, their poses and dynamics; sources and sinks.
@@ -112,7 +118,11 @@ class Learning {
     TexturedMotion& out = model();
     LearnTemplatesOptions template_options;
     template_options.seed = options_.seed;
-    out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.9, 0.95));
+    out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.9, 0.92));
+    if (options_.coils) {  // each moveton again, by the bases of its own shape
+      regroup_coils(clip_, background_.still(), moving_residuals(), out.cables, {}, part(0.92, 0.94));
+      out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.94, 0.95));
+    }
     for (std::size_t k = 0; k < out.templates.size(); ++k) out.dynamics.push_back(dynamics_of(static_cast<int>(k)));
     out.maps = estimate_maps(out.cables, clip_.width, clip_.height, clip_.num_frames());
   }
