@@ -9,15 +9,13 @@
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/particles/bursts.h"
+#include "motex/particles/false_ends.h"
 #include "motex/particles/parzen.h"
 
 namespace motex {
 namespace {
 
 constexpr int kVelocitySteps = 3;
-constexpr int kLongestGap = 5;            // frames
-constexpr double kChanceOfMeeting = 0.2;  // expected births by chance where a cable is carried on
-constexpr double kLargestAmplitudeRatio = 2.5;
 
 bool inside(double x, double y, int width, int height) {
   return x >= -0.5 && y >= -0.5 && x < width - 0.5 && y < height - 0.5;
@@ -51,67 +49,6 @@ PointCounts counts_of(const std::vector<CableEnd>& ends, int width, int height) 
 Plane scaled(Plane plane, double factor) {
   for (float& value : plane.values) value = static_cast<float>(static_cast<double>(value) * factor);
   return plane;
-}
-
-struct Meeting {
-  double distance = 0;
-  std::size_t death = 0, birth = 0;
-};
-
-/// Deaths whose cable, carried on, meets a birth.
-std::vector<Meeting> meetings(std::span<const Cable> cables, const BirthDeathMaps& maps, std::int64_t num_frames) {
-  const PointCounts counts = counts_of(maps.births, maps.width, maps.height);
-  const double bandwidth = std::max(2.0, choose_bandwidth({&counts}));
-  const Plane density = parzen_smooth(counts.counts(), bandwidth);
-  const double own = 1 / (2 * std::numbers::pi * bandwidth * bandwidth);
-  std::vector<Meeting> found;
-  std::vector<std::vector<std::size_t>> births_of(static_cast<std::size_t>(num_frames));
-  for (std::size_t b = 0; b < maps.births.size(); ++b)
-    births_of[static_cast<std::size_t>(maps.births[b].frame)].push_back(b);
-  for (std::size_t d = 0; d < maps.deaths.size(); ++d) {
-    const CableEnd& death = maps.deaths[d];
-    const double amplitude = peak_amplitude(cables[static_cast<std::size_t>(death.cable)].core.back());
-    for (std::int64_t gap = 1; gap <= kLongestGap && death.frame + gap < num_frames; ++gap) {
-      const double x = death.x + death.vx * static_cast<double>(gap), y = death.y + death.vy * static_cast<double>(gap);
-      if (!inside(x, y, maps.width, maps.height)) break;
-      const double radius = 2 + static_cast<double>(gap);
-      const double nearby = std::max(0.0, static_cast<double>(density.at(static_cast<int>(std::floor(x + 0.5)),
-                                                                         static_cast<int>(std::floor(y + 0.5)))) -
-                                              own);
-      const double chance = nearby / static_cast<double>(num_frames) * std::numbers::pi * radius * radius * kLongestGap;
-      if (chance > kChanceOfMeeting) continue;
-      for (const std::size_t b : births_of[static_cast<std::size_t>(death.frame + gap)]) {
-        const CableEnd& birth = maps.births[b];
-        const double distance = std::hypot(birth.x - x, birth.y - y);
-        const double other = peak_amplitude(cables[static_cast<std::size_t>(birth.cable)].core.front());
-        const double ratio = amplitude != 0 ? other / amplitude : 0;
-        if (distance < radius && birth.cable != death.cable && ratio < kLargestAmplitudeRatio &&
-            ratio > 1 / kLargestAmplitudeRatio)
-          found.push_back({distance / radius, d, b});
-      }
-    }
-  }
-  return found;
-}
-
-/// The nearest meetings first, each end once.
-void bridge_gaps(std::span<const Cable> cables, BirthDeathMaps& maps, std::int64_t num_frames) {
-  std::vector<Meeting> found = meetings(cables, maps, num_frames);
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Meeting& a, const Meeting& b) { return a.distance < b.distance; });
-  std::vector<char> dead_taken(maps.deaths.size()), born_taken(maps.births.size());
-  for (const Meeting& meeting : found) {
-    if (dead_taken[meeting.death] != 0 || born_taken[meeting.birth] != 0) continue;
-    dead_taken[meeting.death] = born_taken[meeting.birth] = 1;
-  }
-  const auto keep = [](std::vector<CableEnd>& ends, const std::vector<char>& taken) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i)
-      if (taken[i] == 0) ends[kept++] = ends[i];
-    ends.resize(kept);
-  };
-  keep(maps.deaths, dead_taken);
-  keep(maps.births, born_taken);
 }
 
 void leave_bursts_out(BirthDeathMaps& maps, std::size_t num_cables) {
@@ -170,7 +107,7 @@ BirthDeathMaps estimate_maps(std::span<const Cable> cables, int width, int heigh
   }
   if (options.find_bursts) maps.bursts = find_bursts(cables);
   leave_bursts_out(maps, cables.size());
-  if (options.bridge_gaps) bridge_gaps(cables, maps, num_frames);
+  if (options.bridge_gaps) drop_false_ends(cables, num_frames, maps);
 
   const auto later_frames = static_cast<double>(std::max<std::int64_t>(1, num_frames - 1));
   maps.births_per_frame = static_cast<double>(maps.births.size()) / later_frames;

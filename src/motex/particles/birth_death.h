@@ -56,8 +56,8 @@ struct MapOptions {
     visit(Field{"prior_elements", "elements",
                 "weight that the hazard of the wider surroundings has where few elements pass"},
           self.prior_elements, Range{0.1, 1e6});
-    visit(Field{"bridge_gaps", "", "a death that goes on as a birth a few frames later is neither"}, self.bridge_gaps,
-          Range{});
+    visit(Field{"bridge_gaps", "", "births and deaths that only tracking made (gaps, flashes, crossings) are left out"},
+          self.bridge_gaps, Range{});
     visit(Field{"find_bursts", "", "births that belong together are bursts, not births"}, self.find_bursts, Range{});
   }
 };
@@ -65,8 +65,8 @@ struct MapOptions {
 /// Sources and sinks of the cables of a clip of num_frames frames ([TM02] section 3, P_B and P_D, projected to x, y).
 ///
 /// Births in the first and deaths in the last frame of the clip are not seen (censored). Parzen window with boundary
-/// correction, one bandwidth for all planes. Broken tracks: a death whose cable, carried on, meets a birth within
-/// five frames, where so many births at that place and time are improbable, is taken for a gap: both are left out.
+/// correction, one bandwidth for all planes. Ends that tracking made (gaps, flashes, elements that cover one another;
+/// false_ends.h) are left out.
 /// hazard = (D + κ h′) / (O + κ): D, O = deaths and elements (the last frame's left out) within the window's area
 /// 4π bandwidth², κ = prior_elements, h′ = the same with a window four times as wide, and so on up to the whole
 /// picture. births_per_frame counts births in frames 1 … num_frames − 1. Throws InvalidInput unless sizes and
