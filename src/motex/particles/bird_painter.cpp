@@ -77,7 +77,7 @@ std::vector<Vector3> in_world(const BirdMesh& mesh, const BirdPose& bird) {
   const Vector3 right = bird.forward.cross(bird.up);
   std::vector<Vector3> out;
   for (const Vector3& v : mesh.vertices)
-    out.push_back(bird.position + v.x() * bird.forward + v.y() * bird.up + v.z() * right);
+    out.emplace_back(bird.position + v.x() * bird.forward + v.y() * bird.up + v.z() * right);
   return out;
 }
 
