@@ -23,7 +23,7 @@ bool is_single(const CoreElement& element) { return element.previous < 0 && elem
 
 void CableMoves::birth_or_death(int frame) {
   if (!range_.holds(frame)) return;
-  const int cell = static_cast<int>(rng_.below(static_cast<std::uint64_t>(state_.num_cells())));
+  const int cell = pick_cell(frame);
   if (rng_.below(2) == 0)
     birth(frame, cell);
   else
@@ -211,7 +211,7 @@ int CableMoves::count_whole(int frame, int cell, int length, std::vector<int>* f
 void CableMoves::whole(int frame) {
   const int length = kShortestWhole + static_cast<int>(rng_.below(kMaxPath - kShortestWhole + 1));
   if (!range_.holds(frame) || !range_.holds(frame + length - 1)) return;
-  const int cell = static_cast<int>(rng_.below(static_cast<std::uint64_t>(state_.num_cells())));
+  const int cell = pick_cell(frame);
   if (rng_.below(2) == 0)
     whole_birth(frame, cell, length);
   else

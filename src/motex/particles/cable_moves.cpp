@@ -20,8 +20,9 @@ constexpr double kFollowWidening = 2;    // of the deviation of a step
 
 const char* name_of(CableJump jump) {
   constexpr std::array<const char*, kNumCableJumps> kNames{
-      "birth",  "death", "extend",      "shrink",     "swap",  "exchange", "split", "merge",
-      "bridge", "cut",   "whole_birth", "whole_kill", "refit", "block",    "level", "diffuse"};
+      "birth",       "death",     "extend",      "shrink",      "swap",        "exchange", "split",      "merge",
+      "bridge",      "cut",       "whole_birth", "whole_kill",  "refit",       "block",    "level",      "diffuse",
+      "pair_redraw", "pair_swap", "pair_extend", "pair_shrink", "pair_bridge", "pair_cut", "pair_merge", "pair_split"};
   return kNames[static_cast<std::size_t>(jump)];
 }
 
@@ -59,6 +60,12 @@ void CableMoves::propose(CableMove move, int frame) {
       return level(frame);
     case CableMove::kDiffuse:
       return diffuse(frame);
+    case CableMove::kPair:
+      return pair(frame);
+    case CableMove::kPairFill:
+      return pair_fill(frame);
+    case CableMove::kPairTie:
+      return pair_tie(frame);
   }
 }
 
@@ -73,8 +80,21 @@ bool CableMoves::accept(CableJump jump, double change, double log_hastings) {
 }
 
 int CableMoves::pick(int frame) {
+  if (focus_.radius > 0) {
+    found_.clear();
+    state_.near(frame, focus_.x_at(frame), focus_.y_at(frame), focus_.radius, found_);
+    return found_.empty() ? -1 : found_[rng_.below(found_.size())];
+  }
   const std::vector<int>& live = state_.live(frame);
   return live.empty() ? -1 : live[rng_.below(live.size())];
+}
+
+int CableMoves::pick_cell(int frame) {
+  if (focus_.radius <= 0) return static_cast<int>(rng_.below(static_cast<std::uint64_t>(state_.num_cells())));
+  CoreState z{};
+  z[kCoreX] = focus_.x_at(frame) + rng_.uniform(-1, 1) * focus_.radius;
+  z[kCoreY] = focus_.y_at(frame) + rng_.uniform(-1, 1) * focus_.radius;
+  return state_.cell_of(z);
 }
 
 int CableMoves::pick_near(int frame, int idx) {

@@ -26,9 +26,12 @@ enum class CableMove {
   kRefit,             ///< one core is drawn again: "diffuse" of [TM02], from the fit to the image
   kBlock,             ///< two to four cores in a row are drawn again
   kLevel,             ///< scale and amplitude of a whole cable change together
-  kDiffuse            ///< a random step of one core
+  kDiffuse,           ///< a random step of one core
+  kPair,              ///< one to four cores in a row of two near cables are drawn again together, ends swapped or not
+  kPairFill,          ///< extend, bridge and their reverses, with the cores of a near cable drawn again
+  kPairTie            ///< merge and split, with the core at the seam and one beside it drawn again
 };
-constexpr int kNumCableMoves = 12;
+constexpr int kNumCableMoves = 15;
 
 /// The two directions of each move are counted apart.
 enum class CableJump {
@@ -47,9 +50,17 @@ enum class CableJump {
   kRefit,
   kBlock,
   kLevel,
-  kDiffuse
+  kDiffuse,
+  kPairRedraw,
+  kPairSwap,
+  kPairExtend,
+  kPairShrink,
+  kPairBridge,
+  kPairCut,
+  kPairMerge,
+  kPairSplit
 };
-constexpr int kNumCableJumps = 16;
+constexpr int kNumCableJumps = 24;
 const char* name_of(CableJump jump);
 
 struct JumpCount {
@@ -71,6 +82,14 @@ class CableMoves {
 
   /// One proposal that begins in that frame; often there is nothing that could be proposed.
   void propose(CableMove move, int frame);
+
+  /// Search, not sampling: what lies around the end of a cable (or a cable of length one) is taken away over some
+  /// frames, built up again by the moves above, and put back as it was unless the posterior is higher then.
+  /// Returns whether something was changed.
+  bool rebuild_around(int frame, int idx);
+  /// Whether the element begins or ends a cable where none should.
+  bool is_suspicious(int frame, int idx);
+  std::array<JumpCount, 5> rebuilds_{};
 
   const std::array<JumpCount, kNumCableJumps>& counts() const { return counts_; }
   double log_posterior_change() const { return change_; }
@@ -96,12 +115,57 @@ class CableMoves {
   void redraw(CableJump jump, int frame, int num);
   void diffuse(int frame);
   void level(int frame);
+  void pair(int frame);
+  void pair_fill(int frame);
+  void pair_tie(int frame);
+
+  /// The cores of one cable in some frames; before and after: those they are joined to, −1 = none.
+  struct Strand {
+    int before = -1, after = -1;
+    std::array<int, kMaxPath> indices{};  ///< of the elements, where there are any
+    std::array<CoreState, kMaxPath> states{};
+  };
+  struct Window {
+    BaseKind kind;
+    int frame, num;
+    int direction;        ///< of drawing: +1 from the first frame on, −1 from the last back
+    double x = 0, y = 0;  ///< where to look for cores that are joined to nothing
+  };
+  struct PairDraw {
+    double log_density = 0, explained = 0;
+  };
+  CoreBelief strand_belief(const Window& window, const Strand& strand, int k) const;
+  void look(const Window& window, const Strand& strand, int k);
+  /// As draw_path, for one strand or two at once; image without them. The second may be null.
+  PairDraw draw_strands(const Window& window, Strand& one, Strand* two, bool is_given);
+  void settle_pair(const Window& window, const Strand& one, const Strand& two, int k, CoreState& best_two);
+  double junction(const Window& window, const Strand& strand) const;
+  bool follow(const Window& window, int anchor, Strand& strand) const;
+  void show(const Window& window, const Strand& strand, float sign);
+  void settle(const Window& window, Strand& strand, const std::array<CoreState, kMaxPath>& states);
+  void fill_with_partner(Window window, Strand partner, int anchor, bool to_other_side);
+  void cut_with_partner(Window window, Strand partner, int anchor, bool to_other_side);
+  struct Tie;
+  double tie_share(const Tie& tie, int candidate, int* chosen);
+  int tie_partners(const Tie& tie, int candidate, int* chosen, int wanted);
   struct LevelStep;
   double log_of_track(BaseKind kind, int frame, std::span<const CoreState> z) const;
   LevelStep level_step(BaseKind kind, int frame, std::span<const CoreState> states) const;
 
   bool accept(CableJump jump, double change, double log_hastings);
   int pick(int frame);
+  int pick_cell(int frame);
+  void take_away(int frame, int idx);
+  int put(int frame, BaseKind kind, const CoreState& z, int before);
+  void join(int frame, int idx, int next);
+  double log_volume(int frame, int idx) const;
+  double log_volume_near();
+  void burn(FrameRange window);
+  int strand_in(FrameRange window, int frame, int idx);
+  void drop(FrameRange window, int frame, int idx);
+  void twin(FrameRange window, int frame, int idx);
+  void fuse(FrameRange window, int frame, int idx);
+  void build_up(FrameRange window);
   int pick_near(int frame, int idx);
   bool has_room(int frame) const;
   double explained(int frame, BaseKind kind, const CoreState& z) const;
@@ -136,6 +200,15 @@ class CableMoves {
   double image_weight_;
   double change_ = 0;
   std::array<JumpCount, kNumCableJumps> counts_{};
+  /// Moves are made near a place that goes with the flow, where radius > 0.
+  struct Focus {
+    double x = 0, y = 0, vx = 0, vy = 0, radius = 0;
+    int frame = 0;
+    double x_at(int t) const { return x + vx * (t - frame); }
+    double y_at(int t) const { return y + vy * (t - frame); }
+  };
+  Focus focus_;
+  CableState::Snapshot snapshot_;
   std::vector<int> found_;
   std::vector<int> track_;
   std::vector<CoreState> track_states_, moved_states_;

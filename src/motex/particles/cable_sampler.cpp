@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
@@ -35,7 +37,10 @@ constexpr std::array<MoveRate, kNumCableMoves> kRates{{{CableMove::kBirthDeath, 
                                                        {CableMove::kRefit, 1, 0},
                                                        {CableMove::kBlock, 0.3, 0},
                                                        {CableMove::kLevel, 0, 0},
-                                                       {CableMove::kDiffuse, 0.3, 0}}};
+                                                       {CableMove::kDiffuse, 0.3, 0},
+                                                       {CableMove::kPair, 0.3, 0},
+                                                       {CableMove::kPairFill, 0.5, 0},
+                                                       {CableMove::kPairTie, 0.3, 0}}};
 
 /// Cuts the clip into pieces of about kFramesPerPiece frames at places that change from sweep to sweep.
 std::vector<FrameRange> divide(int num_frames, Rng& rng) {
@@ -85,6 +90,7 @@ class Sampler {
       report_.moves.push_back({name_of(static_cast<CableJump>(k)), count.proposed, count.accepted});
       report_.num_proposals += count.proposed;
     }
+    report_.moves.push_back({"rebuild", rebuilds_.proposed, rebuilds_.accepted});
     return std::move(report_);
   }
 
@@ -92,6 +98,7 @@ class Sampler {
   double run_moves(int sweep) {
     const std::vector<FrameRange> pieces = divide(num_frames_, rng_);
     std::vector<double> changes(pieces.size());
+    std::vector<JumpCount> rebuilds(pieces.size());
     std::vector<std::array<JumpCount, kNumCableJumps>> counts(pieces.size());
     const Rng sweep_rng = rng_.fork(static_cast<std::uint64_t>(sweep));
     parallel_for(job_.jobs, static_cast<int>(pieces.size()), [&](int task) {
@@ -99,6 +106,8 @@ class Sampler {
       FittedCoreProposal proposal(law_.prior());
       CableMoves moves(state_, law_, proposal, pieces[idx], sweep_rng.fork(static_cast<std::uint64_t>(task)));
       for (int frame = pieces[idx].first; frame < pieces[idx].end; ++frame) go_through(frame, sweep, moves);
+      if (sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
+        rebuilds[idx] = search(pieces[idx], moves);
       changes[idx] = moves.log_posterior_change();
       counts[idx] = moves.counts();
     });
@@ -106,8 +115,26 @@ class Sampler {
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       change += changes[i];
       add_counts(counts[i]);
+      rebuilds_.proposed += rebuilds[i].proposed;
+      rebuilds_.accepted += rebuilds[i].accepted;
     }
     return change;
+  }
+
+  JumpCount search(FrameRange piece, CableMoves& moves) const {
+    JumpCount count;
+    for (int frame = piece.first; frame < piece.end; ++frame) {
+      const std::vector<int> all = state_.live(frame);
+      for (const int idx : all) {
+        if (state_.element(frame, idx).live_place < 0 || !moves.is_suspicious(frame, idx)) continue;
+        ++count.proposed;
+        count.accepted += moves.rebuild_around(frame, idx) ? 1 : 0;
+      }
+    }
+    if (std::getenv("RB"))
+      for (int w = 0; w < 5; ++w)
+        std::fprintf(stderr, "%ld/%ld ", moves.rebuilds_[w].accepted, moves.rebuilds_[w].proposed);
+    return count;
   }
 
   void add_counts(const std::array<JumpCount, kNumCableJumps>& counts) {
@@ -130,8 +157,10 @@ class Sampler {
 
   void go_through(int frame, int sweep, CableMoves& moves) const {
     for (const MoveRate& rate : kRates) {
-      const bool keeps_links = rate.move >= CableMove::kRefit;
+      const bool keeps_links = rate.move >= CableMove::kRefit && rate.move < CableMove::kPair;
       if (sweep < kSettlingSweeps && !keeps_links) continue;
+      if (sweep < kSettlingSweeps + 10 && (rate.move == CableMove::kBirthDeath || rate.move == CableMove::kWhole))
+        continue;
       const double num = rate.per_element * elements_per_frame_ + rate.per_cell * state_.num_cells();
       for (int k = 0; k < static_cast<int>(num + 0.5); ++k) moves.propose(rate.move, frame);
     }
@@ -205,6 +234,7 @@ class Sampler {
   Rng rng_;
   double elements_per_frame_ = 1;
   std::array<JumpCount, kNumCableJumps> counts_{};
+  JumpCount rebuilds_;
   SampleCablesReport report_;
 };
 

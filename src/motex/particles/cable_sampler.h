@@ -14,6 +14,7 @@ namespace motex {
 
 struct SampleCablesOptions {
   int sweeps = 40;
+  int search_sweeps = 10;
   int learn_sweeps = 0;
   bool static_background = false;
   std::uint64_t seed = 1;
@@ -21,6 +22,9 @@ struct SampleCablesOptions {
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"sweeps", "", "times that every frame is gone through"}, self.sweeps, Range{0, 100000});
+    visit(Field{"search_sweeps", "",
+                "after so many of the first sweeps cables that begin or end where none should are rebuilt"},
+          self.search_sweeps, Range{0, 100000});
     visit(Field{"learn_sweeps", "", "after so many of the first sweeps rates, dynamics and noise are fitted again"},
           self.learn_sweeps, Range{0, 100000});
     visit(Field{"static_background", "", "the background does not change in time: it is sampled too"},

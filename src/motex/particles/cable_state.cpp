@@ -150,6 +150,23 @@ void CableState::near(int frame, double x, double y, double radius, std::vector<
       }
 }
 
+void CableState::save(int first, int end, Snapshot& snapshot) const {
+  snapshot.first = first;
+  snapshot.end = end;
+  for (int t = first; t < end; ++t) {
+    const auto k = static_cast<std::size_t>(t - first);
+    if (k < snapshot.frames.size())
+      snapshot.frames[k] = at(t);
+    else
+      snapshot.frames.push_back(at(t));
+  }
+}
+
+void CableState::restore(const Snapshot& snapshot) {
+  for (int t = snapshot.first; t < snapshot.end; ++t)
+    at(t) = snapshot.frames[static_cast<std::size_t>(t - snapshot.first)];
+}
+
 std::vector<Cable> CableState::cables() const {
   std::vector<Cable> all;
   for (int t = 0; t < num_frames(); ++t) {

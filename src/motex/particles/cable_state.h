@@ -53,6 +53,11 @@ class CableState {
   /// Appends the elements of `frame` within radius of (x, y) to `out`.
   void near(int frame, double x, double y, double radius, std::vector<int>& out) const;
 
+  /// A copy of some frames, to go back to.
+  struct Snapshot;
+  void save(int first, int end, Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
+
   std::vector<Cable> cables() const;
   std::int64_t num_elements() const;
 
@@ -72,6 +77,11 @@ class CableState {
   int width_ = 0, height_ = 0;
   int cells_across_ = 0, cells_down_ = 0;
   std::vector<Frame> frames_;
+};
+
+struct CableState::Snapshot {
+  int first = 0, end = 0;
+  std::vector<Frame> frames;
 };
 
 /// ln p(W, images) up to a constant of the images' size: Σ −residual² / 2 noise² − pixels · ln noise + ln p(W).

@@ -97,6 +97,15 @@ void FittedCoreProposal::look_around(const ResidualFrame& image, BaseKind kind, 
   fit(image, kind, belief, least * kWideBelief * kWideBelief < 1 ? best_start(image, kind, belief) : belief.mean);
 }
 
+void FittedCoreProposal::look_near(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, double x,
+                                   double y, double radius) {
+  CoreBelief somewhere = belief;
+  somewhere.mean[kCoreX] = x;
+  somewhere.mean[kCoreY] = y;
+  somewhere.precision[kCoreX] = somewhere.precision[kCoreY] = 4 / (radius * radius);
+  fit(image, kind, somewhere, best_start(image, kind, somewhere));
+}
+
 bool FittedCoreProposal::look_in_cell(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief,
                                       const PictureCell& cell) {
   const double sign = prior_.sign != 0 ? prior_.sign : 1;

@@ -25,6 +25,11 @@ class CoreProposal {
   /// For a new core in the cell. False when nothing there could be one.
   virtual bool look_in_cell(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief,
                             const PictureCell& cell) = 0;
+  /// For a core that nothing is known of but that it lies within radius pixels of (x, y).
+  virtual void look_near(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, double x, double y,
+                         double radius) = 0;
+  /// The most likely state.
+  virtual CoreState best() const = 0;
   virtual CoreState draw(Rng& rng) const = 0;
   virtual double log_density(const CoreState& state) const = 0;
   /// A step from the state whose density is that of the step back.
@@ -42,6 +47,9 @@ class FittedCoreProposal : public CoreProposal {
   void look_around(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief) override;
   bool look_in_cell(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief,
                     const PictureCell& cell) override;
+  void look_near(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, double x, double y,
+                 double radius) override;
+  CoreState best() const override { return mean_; }
   CoreState draw(Rng& rng) const override;
   double log_density(const CoreState& state) const override;
   CoreState step(BaseKind kind, const CoreState& state, Rng& rng) const override;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRobust = 1.4826;  // deviation of a normal law / its median absolute deviation
 constexpr double kOutlier = 5;      // deviations
-constexpr double kLeastPlaceStep = 0.03, kLeastScaleStep = 0.01, kLeastPeakStep = 0.5, kLeastTurn = 0.02;
+constexpr double kLeastPlaceStep = 0.03, kLeastScaleStep = 0.02, kLeastPeakStep = 2, kLeastTurn = 0.02;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
