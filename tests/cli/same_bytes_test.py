@@ -44,5 +44,38 @@ class SameBytes(CommandTest):
         self.assert_same(self.made("first"), self.made("second", binary=other))
 
 
+class SameParticles(CommandTest):
+    def made(self, name, binary=MOTEX, jobs=1, seed=5):
+        """Bytes of a scene, of the model learned from it and of what that makes."""
+        folder = self.folder / name
+        folder.mkdir()
+        common = ("--seed", seed, "--jobs", jobs)
+        small = ("--width", 96, "--height", 72, "--frames", 16)
+        for kind, elements in (("snow", 20), ("birds", 6)):
+            scene, model = folder / f"{kind}_scene", folder / f"{kind}.motex"
+            self.succeed("particles", "simulate", kind, "-o", scene, *small, "--elements", elements, *common, binary=binary)
+            self.succeed("particles", "learn", f"{kind}_scene/scene.mkv", "-o", model, *common, binary=binary, cwd=folder)
+            self.succeed("particles", "tracks", model, "-o", folder / f"{kind}.csv", *common[2:], binary=binary)
+            for appearance in ("replay", "templates"):
+                arguments = ("-o", folder / f"{kind}_{appearance}.mkv", "--frames", 20, "--appearance", appearance)
+                self.succeed("particles", "synthesize", model, *arguments, *common, binary=binary)
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+    def assert_same(self, a, b):
+        self.assertEqual(set(a), set(b))
+        for name in sorted(a):
+            self.assertTrue(a[name] == b[name], f"{name} differs")
+
+    def test_with_two_threads(self):
+        self.assert_same(self.made("first"), self.made("second", jobs=2))
+
+    def test_other_compiler(self):
+        other = os.environ.get("MOTEX_OTHER_COMPILER", "")
+        if not Path(other).is_file():
+            self.assertFalse(os.environ.get("MOTEX_REQUIRE_ALL"), f"no command of the other compiler at '{other}'")
+            self.skipTest("build it with: scripts/build clang motex_cli")
+        self.assert_same(self.made("first"), self.made("second", binary=other))
+
+
 if __name__ == "__main__":
     unittest.main()
