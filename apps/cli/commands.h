@@ -39,6 +39,8 @@ Command particles_learn();
 Command particles_info();
 Command particles_tracks();
 Command particles_explain();
+Command particles_compress();
+Command particles_decompress();
 Command particles_synthesize();
 Command particles_maps();
 Command particles_simulate_snow();

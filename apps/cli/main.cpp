@@ -48,6 +48,8 @@ CommandTable make_table() {
       particles_info(),
       particles_tracks(),
       particles_explain(),
+      particles_compress(),
+      particles_decompress(),
       particles_synthesize(),
       particles_decompose(),
       particles_score(),

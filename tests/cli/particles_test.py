@@ -5,6 +5,7 @@
 import json
 import math
 import unittest
+from xml.etree import ElementTree
 
 from command import CommandTest
 
@@ -132,6 +133,129 @@ class Score(CommandTest):
         self.fail_with(2, "particles", "score", "--truth", good, "--tracks", good, "--size", "9", saying="size")
         empty = self.write("empty.csv", [])
         self.fail_with(2, "particles", "score", "--truth", empty, "--tracks", good, saying="no visible point")
+
+
+def write_snow(folder, num_frames=12, width=64, height=48):
+    """Grey pictures: six bright blobs that fall at their own speeds."""
+    folder.mkdir()
+    for t in range(num_frames):
+        rows = bytearray()
+        for y in range(height):
+            for x in range(width):
+                light = 50 + (x * 7 + y * 13 + t * 5) % 5
+                for k in range(6):
+                    light += 130 * math.exp(-((x - 6 - 10 * k - 0.5 * t) ** 2 + (y + 4 - 6 * k % 17 - (2 + k % 2) * t) ** 2) / 5)
+                rows.append(min(255, round(light)))
+        (folder / f"f_{t:03}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+    return folder
+
+
+class Tracks(CommandTest):
+    """particles tracks, explain, compress: what is made of a model."""
+
+    def setUp(self):
+        super().setUp()
+        self.video = write_snow(self.folder / "snow")
+        self.model = self.folder / "snow.motex"
+        self.succeed("particles", "learn", self.video, "-o", self.model, "--rounds", "0")
+
+    def test_table_trackmate_and_overlay(self):
+        table, xml, simple, video = (self.folder / name for name in ("t.csv", "t.xml", "t_Tracks.xml", "t.mkv"))
+        outputs = [word for path in (table, xml, simple, video) for word in ("-o", path)]
+        report = self.one_json_object("particles", "tracks", self.model, *outputs)
+        lines = table.read_text().splitlines()
+        self.assertEqual(lines[0], "track,frame,x,y,scale,angle,amplitude")
+        self.assertEqual(len(lines) - 1, report["points"])
+        self.assertGreaterEqual(report["tracks"], 5)
+        for line in lines[1:]:
+            track, frame, x, y, *_ = line.split(",")
+            self.assertTrue(int(track) >= 0 and 0 <= int(frame) < 12)
+            self.assertTrue(-0.5 <= float(x) < 63.5 and -0.5 <= float(y) < 47.5)
+        root = ElementTree.parse(xml).getroot()
+        self.assertEqual(root.tag, "TrackMate")
+        self.assertEqual(len(root.findall(".//Spot")), report["points"])
+        ids = {spot.get("ID") for spot in root.findall(".//Spot")}
+        for edge in root.findall(".//Edge"):
+            self.assertTrue({edge.get("SPOT_SOURCE_ID"), edge.get("SPOT_TARGET_ID")} <= ids)
+        self.assertEqual(len(ElementTree.parse(simple).getroot().findall("particle")), report["tracks"])
+        self.assertGreater(video.stat().st_size, 1000)
+        over = self.folder / "over.mkv"
+        self.succeed("particles", "tracks", self.model, "-o", over, "--video", self.video)
+        self.assertNotEqual(over.read_bytes(), video.read_bytes())
+
+    def test_units(self):
+        plain, physical = self.folder / "a.csv", self.folder / "b.csv"
+        self.succeed("particles", "tracks", self.model, "-o", plain)
+        report = self.one_json_object("particles", "tracks", self.model, "-o", physical, "--pixel-size", "0.5", "--dt", "2")
+        self.assertEqual((report["length_unit"], report["um_per_pixel"], report["secs_per_frame"]), ("um", 0.5, 2))
+        first, second = (path.read_text().splitlines()[1].split(",") for path in (plain, physical))
+        self.assertAlmostEqual(float(second[2]), float(first[2]) / 2, delta=1e-3)
+        self.assertEqual(float(second[-1]), 2 * int(second[1]))
+
+    def test_points_are_linked(self):
+        points = self.folder / "points.csv"
+        rows = [f"{t},{10 + 2 * t + 20 * k},{5 + t}" for t in range(15) for k in range(3)]
+        points.write_text("frame,x,y\n" + "\n".join(rows) + "\n")
+        out = self.folder / "linked.csv"
+        report = self.one_json_object("particles", "tracks", "--detections", points, "-o", out, "--size", "100x80")
+        self.assertEqual((report["tracks"], report["points"]), (3, 45))
+        self.assertAlmostEqual(report["velocity"][0], 2, delta=0.2)
+
+    def test_bad_requests_for_tracks(self):
+        out, pictures = self.folder / "x.csv", self.folder / "x.mp4"
+        bad = self.folder / "bad.csv"
+        bad.write_text("frame,x\n1,2\n")
+        for arguments, saying in [
+            ((self.video, "-o", out), "particles learn"),
+            (("-o", out), "MODEL"),
+            ((self.model, "-o", self.folder / "x.xls"), "xls"),
+            ((self.model, "-o", out, "--pixel-size", "-1"), "pixel-size"),
+            ((self.model, "-o", out, "--dt", "nan"), "dt"),
+            ((self.model, "-o", out, "--video", self.video), "overlay"),
+            ((self.model, "-o", pictures, "--video", self.video, "--first-frame", "99"), "no frame 99"),
+            (("--detections", bad, "-o", out), "bad.csv:1"),
+            (("--detections", self.folder / "none.csv", "-o", out), "none.csv"),
+            (("--detections", bad, "-o", pictures), "--video"),
+            ((self.folder / "none.motex", "-o", out), "none.motex"),
+        ]:
+            self.fail_with(2, "particles", "tracks", *arguments, saying=saying)
+        out.write_text("old")
+        self.fail_with(2, "particles", "tracks", self.model, "-o", out, saying="--force")
+        self.assertEqual(out.read_text(), "old")
+
+    def test_explain(self):
+        odd, table = self.folder / "odd.png", self.folder / "odd.csv"
+        value = self.one_json_object("particles", "explain", self.model, self.video, "--map", odd, "--tracks", table)
+        (one,) = value["models"]
+        self.assertEqual(one["probability"], 1)
+        parts = sum(one[name] for name in ("births", "places", "looks", "motion", "deaths"))
+        self.assertAlmostEqual(parts, one["log_likelihood"], places=6)
+        self.assertGreater(value["image"]["psnr"], 20)
+        self.assertTrue(odd.read_bytes().startswith(b"\x89PNG"))
+        self.assertEqual(table.read_text().splitlines()[0], "track,frame,x,y,scale,angle,amplitude,surprise")
+        for arguments, saying in [
+            ((self.model,), "at least one model"),
+            ((self.video, self.video), "particles learn"),
+            ((self.model, self.folder / "none.mp4"), "none.mp4"),
+            ((self.model, self.video, "--map", self.folder / "x.txt"), "txt"),
+            ((self.model, self.video, "--tracks", table), "--force"),
+        ]:
+            self.fail_with(2, "particles", "explain", *arguments, saying=saying)
+
+    def test_compress_and_decompress(self):
+        small, back = self.folder / "snow.mtxc", self.folder / "back.mkv"
+        report = self.one_json_object("particles", "compress", self.video, "-o", small, "--model", self.model, "--bases", "20")
+        self.assertEqual(report["raw_bytes"], 64 * 48 * 12)
+        self.assertEqual(report["bytes"], small.stat().st_size)
+        self.assertGreater(report["psnr"], 33)
+        self.assertGreater(report["ratio"], 20)
+        self.assertEqual(self.one_json_object("particles", "decompress", small, "-o", back)["frames"], 12)
+        whole = small.read_bytes()
+        for size in (0, 5, 30, len(whole) // 2, len(whole) - 1):
+            small.write_bytes(whole[:size])
+            self.fail_with(2, "particles", "decompress", small, "-o", self.folder / "x.mkv", saying=r"snow\.mtxc")
+        self.fail_with(2, "particles", "decompress", self.model, "-o", self.folder / "x.mkv", saying="compressed by motex")
+        self.fail_with(2, "particles", "compress", self.video, "-o", self.folder / "x.zip", saying="mtxc")
 
 
 if __name__ == "__main__":

@@ -71,21 +71,22 @@ struct Slot {
 
 class Quantiser {
  public:
-  Quantiser(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables,
-            const CompressClipOptions& options, const JobContext& job)
-      : clip_(clip), background_(background), cables_(cables), options_(options), job_(job) {
-    out_.width = clip.width;
-    out_.height = clip.height;
-    out_.num_planes = static_cast<int>(background.size());
-    out_.num_frames = clip.num_frames();
-    out_.frames_per_sec = static_cast<float>(clip.frames_per_sec);
-  }
+  /// clip: null = the cables' own coefficients are kept, and `noise` is the error of a pixel.
+  Quantiser(const ClipFrames* clip, const Planes& background, const std::vector<Cable>& cables, double noise,
+            QuantisedClip sizes, const CompressClipOptions& options, const JobContext& job)
+      : clip_(clip),
+        background_(background),
+        cables_(cables),
+        noise_(noise),
+        options_(options),
+        job_(job),
+        out_(std::move(sizes)) {}
 
   QuantisedClip run() {
     choose_steps();
     out_.background = decoded_background();
     for (const Cable& cable : cables_) add(cable);
-    fit_coefficients_again();
+    if (clip_ != nullptr) fit_coefficients_again();
     drop_what_is_nothing();
     sort_for_coding(out_);
     return std::move(out_);
@@ -100,19 +101,19 @@ class Quantiser {
     return read_planes(reader, out_.width, out_.height, out_.num_planes, static_cast<double>(out_.background_step));
   }
 
-  /// From the error that the bases leave in a few frames.
+  /// Squared error of one plane, from what the bases leave in a few frames.
   void choose_steps() {
-    const int num_seen = std::min(8, clip_.num_frames());
-    double error = 0, num_bases = 0;
+    const int num_seen = static_cast<int>(std::min<std::int64_t>(8, out_.num_frames));
+    const double pixels = static_cast<double>(out_.width) * out_.height * num_seen;
+    double error = clip_ == nullptr ? noise_ * noise_ * pixels * out_.num_planes : 0, num_bases = 0;
     for (int k = 0; k < num_seen; ++k) {
-      const int frame = static_cast<int>((k + 0.5) * clip_.num_frames() / num_seen);
-      const BaseMap map = bases_in_frame(cables_, frame, clip_.width, clip_.height, out_.num_planes);
+      const int frame = static_cast<int>((k + 0.5) * static_cast<double>(out_.num_frames) / num_seen);
+      const BaseMap map = bases_in_frame(cables_, frame, out_.width, out_.height, out_.num_planes);
       num_bases += static_cast<double>(map.bases.size());
-      error += squared_error(reconstruct(map, background_), planes_of_frame(clip_, frame));
+      if (clip_ != nullptr) error += squared_error(reconstruct(map, background_), planes_of_frame(*clip_, frame));
     }
     error /= out_.num_planes;
     num_bases = std::max(1.0, num_bases);
-    const double pixels = static_cast<double>(clip_.width) * clip_.height * num_seen;
     const double bases = std::sqrt(12 * kShareOfBases * error / (kNumbersPerBase * num_bases)),
                  still = std::sqrt(12 * kShareOfBackground * error / pixels);
     out_.coefficient_step =
@@ -124,8 +125,8 @@ class Quantiser {
   bool is_seen(const Cable& cable, std::size_t idx) const {
     const auto seen = [&](const Base& base) {
       const BaseReach reach = reach_of(base);
-      return base.x + reach.x > 0 && base.y + reach.y > 0 && base.x - reach.x < clip_.width - 1 &&
-             base.y - reach.y < clip_.height - 1;
+      return base.x + reach.x > 0 && base.y + reach.y > 0 && base.x - reach.x < out_.width - 1 &&
+             base.y - reach.y < out_.height - 1;
     };
     if (seen(cable.core[idx])) return true;
     return std::any_of(cable.coils.begin(), cable.coils.end(),
@@ -174,6 +175,10 @@ class Quantiser {
         const double angle = (base.angle / std::numbers::pi - half_turns) * kAngleLevels;
         state.angle = before == nullptr ? rounded(angle) : held(angle, before->angle);
       }
+      const float sign = path.kind == BaseKind::kGaborSin && std::fmod(half_turns, 2) != 0 ? -1.0F : 1.0F;
+      if (clip_ == nullptr)
+        set_coefficients(path, path.states.size() - 1,
+                         {sign * base.coefficients[0], sign * base.coefficients[1], sign * base.coefficients[2]});
     }
     return path;
   }
@@ -197,7 +202,8 @@ class Quantiser {
       fits[static_cast<std::size_t>(frame)] = fit_frame(frame, slots[static_cast<std::size_t>(frame)]);
     });
     for (std::size_t frame = 0; frame < slots.size(); ++frame)  // in time, for what is held
-      for (std::size_t j = 0; j < slots[frame].size(); ++j) set_coefficients(slots[frame][j], fits[frame][j]);
+      for (std::size_t j = 0; j < slots[frame].size(); ++j)
+        set_coefficients(path_at(slots[frame][j]), slots[frame][j].idx, fits[frame][j]);
   }
 
   std::vector<std::array<float, 3>> fit_frame(int frame, const std::vector<Slot>& slots) {
@@ -206,16 +212,15 @@ class Quantiser {
       const QuantisedPath& path = path_at(slot);
       map.bases.push_back(dequantised(out_, path, path.states[slot.idx]));
     }
-    refit(map, minus(planes_of_frame(clip_, frame), out_.background));
+    refit(map, minus(planes_of_frame(*clip_, frame), out_.background));
     std::vector<std::array<float, 3>> fits;
     for (const Base& base : map.bases) fits.push_back(base.coefficients);
     return fits;
   }
 
-  void set_coefficients(const Slot& slot, const std::array<float, 3>& fit) {
-    QuantisedPath& path = path_at(slot);
-    QuantisedState& state = path.states[slot.idx];
-    const QuantisedState* before = slot.idx > 0 ? &path.states[slot.idx - 1] : nullptr;
+  void set_coefficients(QuantisedPath& path, std::size_t idx, const std::array<float, 3>& fit) const {
+    QuantisedState& state = path.states[idx];
+    const QuantisedState* before = idx > 0 ? &path.states[idx - 1] : nullptr;
     double luma = static_cast<double>(fit[0]), blue = static_cast<double>(fit[1]), red = static_cast<double>(fit[2]);
     const auto step = static_cast<double>(out_.coefficient_step);
     if (out_.num_planes == 3) {
@@ -241,9 +246,10 @@ class Quantiser {
     std::erase_if(out_.cables, [&](const QuantisedCable& cable) { return cable.coils.empty() && dark(cable.core); });
   }
 
-  const ClipFrames& clip_;
+  const ClipFrames* clip_;
   const Planes& background_;
   const std::vector<Cable>& cables_;
+  double noise_;
   const CompressClipOptions& options_;
   const JobContext& job_;
   QuantisedClip out_;
@@ -265,7 +271,27 @@ QuantisedClip quantise_clip(const ClipFrames& clip, const Planes& background, co
   for (const Plane& plane : background)
     if (plane.width != clip.width || plane.height != clip.height)
       throw InvalidInput("the background must be as large as the clip");
-  return Quantiser(clip, background, cables, options, job).run();
+  QuantisedClip sizes;
+  sizes.width = clip.width;
+  sizes.height = clip.height;
+  sizes.num_planes = clip.num_planes();
+  sizes.num_frames = clip.num_frames();
+  sizes.frames_per_sec = static_cast<float>(clip.frames_per_sec);
+  return Quantiser(&clip, background, cables, 0, std::move(sizes), options, job).run();
+}
+
+QuantisedClip quantise_cables(const TexturedMotion& model, const CompressClipOptions& options) {
+  check_options(options);
+  if (static_cast<int>(model.background.size()) != model.num_planes || model.num_frames < 1)
+    throw InvalidInput("a model without background or frames has no clip to compress");
+  QuantisedClip sizes;
+  sizes.width = model.width;
+  sizes.height = model.height;
+  sizes.num_planes = model.num_planes;
+  sizes.num_frames = model.num_frames;
+  sizes.frames_per_sec = static_cast<float>(model.frames_per_sec);
+  return Quantiser(nullptr, model.background, model.cables, std::max(1.0, model.noise), std::move(sizes), options, {})
+      .run();
 }
 
 std::string compress_clip(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables,

@@ -11,6 +11,7 @@
 #include "motex/particles/cable.h"
 #include "motex/particles/clip_frames.h"
 #include "motex/particles/quantised_clip.h"
+#include "motex/particles/textured_motion.h"
 
 namespace motex {
 
@@ -47,6 +48,9 @@ struct CompressClipReport {
 /// background_out: what the background bytes are made from. Throws InvalidInput (sizes), Cancelled.
 QuantisedClip quantise_clip(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables,
                             const CompressClipOptions& options, const JobContext& job = {});
+
+/// The same of a model alone, without the frames: the cables' own coefficients, and the model's noise for the error.
+QuantisedClip quantise_cables(const TexturedMotion& model, const CompressClipOptions& options = {});
 
 /// quantise_clip() and write_clip_bytes().
 std::string compress_clip(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables,

@@ -141,6 +141,23 @@ TEST(CompressClip, FreeBasesFillUpWhatCablesLeave) {
   }
 }
 
+TEST(CompressClip, AModelIsCompressedWithoutItsFrames) {
+  const Scene scene = falling_blobs(3);
+  TexturedMotion model;
+  model.width = 96;
+  model.height = 72;
+  model.num_planes = 3;
+  model.num_frames = 16;
+  model.noise = 3;
+  model.background = scene.background;
+  model.cables = scene.cables;
+  const QuantisedClip quantised = quantise_cables(model);
+  const std::vector<Cable> cables = dequantised_cables(quantised);
+  double mean = 0;
+  for (int t = 0; t < 16; ++t) mean += psnr(decoded_frame(quantised, cables, t), planes_of_frame(scene.clip, t)) / 16;
+  EXPECT_GT(mean, 20 * std::log10(255 / 3.0) - 1.5);
+}
+
 TEST(CompressClip, SaysWhatDoesNotFit) {
   Scene scene = falling_blobs(1);
   EXPECT_THROW(quantise_clip(scene.clip, {Plane(95, 72)}, scene.cables, {}), InvalidInput);

@@ -13,7 +13,7 @@
 namespace motex {
 namespace {
 
-constexpr double kWidth = 640;
+constexpr double kWidth = 640, kMargin = 12, kTitleHeight = 40;
 constexpr std::size_t kNumMarked = 8;
 constexpr double kMarkedFrom = 4;  // deviations
 constexpr double kFullHeat = 20;   // summed deviations shown in the hottest colour, at least
@@ -90,7 +90,14 @@ Drawing abnormality_figure(const TexturedMotion& observed, const Explanation& ex
     series.y.push_back(time[t]);
   }
   when.series.push_back(std::move(series));
-  return grid({where, draw(when)}, 1, title);
+  const Drawing chart = draw(when);
+  Drawing figure;
+  figure.width = std::max(kWidth, chart.width) + 2 * kMargin;
+  figure.height = kTitleHeight + where.height + kMargin + chart.height;
+  figure.add(Text{{figure.width / 2, kTitleHeight - 14}, title, 14, {38, 42, 51, 255}, Align::kCentre, true, false});
+  append(figure, where, {kMargin, kTitleHeight});
+  append(figure, chart, {kMargin, kTitleHeight + where.height + kMargin});
+  return figure;
 }
 
 }  // namespace motex

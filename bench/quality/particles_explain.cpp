@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+// Recognition: which class of clips explains a clip best. Elements are followed in both halves of each clip; the first
+// halves are the models, the second halves are recognised. Two tables: with the model of the clip's own first half
+// among the models, and without it (only other clips of the class can win).
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motex/core/error.h"
+#include "motex/particles/clip_background.h"
+#include "motex/particles/explain.h"
+#include "motex/particles/simulate.h"
+#include "motex/particles/track_elements.h"
+#include "motex/project/load_video_clip.h"
+
+namespace motex {
+namespace {
+
+constexpr std::array<const char*, 4> kClasses{"snow", "birds", "fireworks", "water"};
+constexpr int kMostFrames = 120;  // of both halves
+
+struct Halves {
+  std::string name;
+  std::size_t class_idx = 0;
+  TexturedMotion first, second;
+};
+
+TexturedMotion followed(const ClipFrames& clip, int from, int num_frames) {
+  ClipFrames part;
+  part.width = clip.width;
+  part.height = clip.height;
+  part.luma.assign(clip.luma.begin() + from, clip.luma.begin() + from + num_frames);
+  TexturedMotion model;
+  model.width = part.width;
+  model.height = part.height;
+  model.num_frames = num_frames;
+  const ClipBackground ground(part, BackgroundKind::kMedian, {});
+  model.background = ground.still();
+  model.cables = track_elements(part, model.background[0], 0, {});
+  return model;
+}
+
+void add(std::vector<Halves>& all, const std::string& name, std::size_t class_idx, const ClipFrames& clip) {
+  const int half = std::min(kMostFrames, clip.num_frames()) / 2;
+  Halves halves{name, class_idx, followed(clip, 0, half), followed(clip, half, half)};
+  std::printf("%-34s %s: %zu and %zu elements in %d frames each\n", name.c_str(), kClasses[class_idx],
+              halves.first.cables.size(), halves.second.cables.size(), half);
+  std::fflush(stdout);
+  if (!halves.first.cables.empty() && !halves.second.cables.empty()) all.push_back(std::move(halves));
+}
+
+void recognise(const std::vector<Halves>& all, bool with_own) {
+  std::array<std::array<int, kClasses.size()>, kClasses.size()> confusion{};
+  std::vector<std::string> wrong;
+  for (const Halves& clip : all) {
+    double best = -1e300;
+    const Halves* winner = nullptr;
+    for (const Halves& model : all) {
+      if (!with_own && &model == &clip) continue;
+      const double nats = explain_cables(model.first, clip.second).total();
+      if (nats > best) {
+        best = nats;
+        winner = &model;
+      }
+    }
+    ++confusion[clip.class_idx][winner->class_idx];
+    if (winner->class_idx != clip.class_idx) wrong.push_back(clip.name + " as " + winner->name);
+  }
+  std::printf("\n%s\n%12s",
+              with_own ? "with the model of the same clip's first half" : "with models of other clips only", "");
+  for (const char* name : kClasses) std::printf("%11s", name);
+  std::puts("  <- recognised as");
+  for (std::size_t truth = 0; truth < kClasses.size(); ++truth) {
+    std::printf("%12s", kClasses[truth]);
+    for (const int count : confusion[truth]) std::printf("%11d", count);
+    std::puts("");
+  }
+  for (const std::string& name : wrong) std::printf("  wrong: %s\n", name.c_str());
+}
+
+int run() {
+  const char* given = std::getenv("MOTEX_BENCH_DATA");
+  const std::filesystem::path folder = given != nullptr && given[0] != '\0'
+                                           ? std::filesystem::path(given)
+                                           : std::filesystem::path(MOTEX_SHARED_DATA) / "video";
+  const std::vector<std::pair<const char*, std::size_t>> clips{{"textured/snow_forest_320x240.mp4", 0},
+                                                               {"textured/snow_birch_480x270.mp4", 0},
+                                                               {"dyntex/siims_snow2_64.avi", 0},
+                                                               {"synth/synth_snow.mkv", 0},
+                                                               {"textured/birds_sky_480x270.mp4", 1},
+                                                               {"textured/birds_greenscreen_cg_480x270.mp4", 1},
+                                                               {"synth/synth_birds.mkv", 1},
+                                                               {"textured/fireworks_repeat_480x270.mp4", 2},
+                                                               {"textured/fireworks_single_480x270.mp4", 2},
+                                                               {"synth/synth_fireworks.mkv", 2},
+                                                               {"textured/waterfall_kjos_320x240.mp4", 3},
+                                                               {"textured/waterfall_pool_320x240.mp4", 3},
+                                                               {"dyntex/siims_waterfall1_64.avi", 3}};
+  std::vector<Halves> all;
+  for (const auto& [name, class_idx] : clips) try {
+      add(all, name, class_idx, load_video_clip(folder / name));
+    } catch (const Error& error) {
+      std::printf("%s: %s\n", name, error.what());
+    }
+  for (const std::uint64_t seed : {5U, 6U}) {
+    SimulateSnowOptions snow;
+    snow.seed = seed;
+    add(all, "simulated snow " + std::to_string(seed), 0, clip_frames_of(simulate_snow(snow)));
+    SimulateBirdsOptions birds;
+    birds.seed = seed;
+    add(all, "simulated birds " + std::to_string(seed), 1, clip_frames_of(simulate_birds(birds)));
+    SimulateFireworksOptions fireworks;
+    fireworks.seed = seed;
+    add(all, "simulated fireworks " + std::to_string(seed), 2, clip_frames_of(simulate_fireworks(fireworks)));
+  }
+  recognise(all, true);
+  recognise(all, false);
+  return 0;
+}
+
+}  // namespace
+}  // namespace motex
+
+int main() { return motex::run(); }
