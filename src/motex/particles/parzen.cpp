@@ -9,6 +9,7 @@ namespace motex {
 namespace {
 
 constexpr double kEvenShare = 0.05;
+constexpr std::size_t kNeighbour = 4, kMostAsked = 400;
 
 /// Of distance 0, 1, …; both sides together sum to 1.
 std::vector<double> window(double bandwidth) {
@@ -106,6 +107,31 @@ double leave_one_out(const PointCounts& map, double bandwidth) {
 
 }  // namespace
 
+namespace {
+
+/// Half the distance to the fourth neighbour, in the median over points.
+double neighbour_bandwidth(const PointCounts& map) {
+  std::vector<std::pair<double, double>> points;
+  const Plane& counts = map.counts();
+  for (int y = 0; y < counts.height; ++y)
+    for (int x = 0; x < counts.width; ++x)
+      for (float left = counts.at(x, y); left > 0.5F; --left) points.emplace_back(x, y);
+  if (points.size() <= kNeighbour) return 0;
+  const std::size_t stride = 1 + points.size() / kMostAsked;
+  std::vector<double> distances, medians;
+  for (std::size_t i = 0; i < points.size(); i += stride) {
+    distances.clear();
+    for (const auto& [x, y] : points) distances.push_back(std::hypot(x - points[i].first, y - points[i].second));
+    std::nth_element(distances.begin(), distances.begin() + kNeighbour, distances.end());
+    medians.push_back(distances[kNeighbour]);
+  }
+  const auto middle = medians.begin() + static_cast<std::ptrdiff_t>(medians.size() / 2);
+  std::nth_element(medians.begin(), middle, medians.end());
+  return *middle / 2;
+}
+
+}  // namespace
+
 double choose_bandwidth(const std::vector<const PointCounts*>& maps) {
   int side = 16;
   bool enough = false;
@@ -126,6 +152,7 @@ double choose_bandwidth(const std::vector<const PointCounts*>& maps) {
     }
     first = false;
   }
+  for (const PointCounts* map : maps) best = std::max(best, std::min(neighbour_bandwidth(*map), side / 4.0));
   return best;
 }
 

@@ -27,7 +27,8 @@ Plane parzen_smooth(const Plane& counts, double bandwidth);
 
 /// The deviation, 1 … a quarter of the shorter side in steps of √2, under which each point is most likely given all
 /// others of its map (leave-one-out likelihood, 5 % of it spread evenly so that strays do not decide), summed over the
-/// maps. With fewer than two points in every map: a sixteenth of the shorter side.
+/// maps; not less than half the distance to a point's fourth neighbour (median), or points along a line, as at the
+/// border, would stay dots. With fewer than two points in every map: a sixteenth of the shorter side.
 double choose_bandwidth(const std::vector<const PointCounts*>& maps);
 
 }  // namespace motex
