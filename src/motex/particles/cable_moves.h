@@ -89,7 +89,6 @@ class CableMoves {
   bool rebuild_around(int frame, int idx);
   /// Whether the element begins or ends a cable where none should.
   bool is_suspicious(int frame, int idx);
-  std::array<JumpCount, 5> rebuilds_{};
 
   const std::array<JumpCount, kNumCableJumps>& counts() const { return counts_; }
   double log_posterior_change() const { return change_; }

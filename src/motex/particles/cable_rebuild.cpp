@@ -17,7 +17,7 @@ constexpr int kBeside = 3;                             // frames
 constexpr double kTwinOffset = 0.6, kTwinScale = 0.9;  // of the scale
 constexpr double kVolumeRadius = 24;                   // pixels: around all that may change
 enum RebuildWay : std::uint64_t { kBurn, kDrop, kTwin, kTwinBeside, kFuse, kNumWays };
-constexpr int kRounds = 6;
+constexpr int kRounds = 4;
 constexpr double kCrowdRadius = 4;  // pixels
 
 }  // namespace
@@ -262,8 +262,6 @@ bool CableMoves::rebuild_around(int frame, int idx) {
     change_ = before;
     state_.restore(snapshot_);
   }
-  ++rebuilds_[way].proposed;
-  rebuilds_[way].accepted += is_better ? 1 : 0;
   range_ = whole;
   return is_better;
 }

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
@@ -54,6 +52,11 @@ std::vector<FrameRange> divide(int num_frames, Rng& rng) {
     first = end + kFramesBetweenPieces;
   }
   return pieces;
+}
+
+/// Before anything comes or goes, what is there is fitted: a misfit would look like another element.
+bool keeps_links(CableMove move) {
+  return move == CableMove::kRefit || move == CableMove::kBlock || move == CableMove::kDiffuse;
 }
 
 class Sampler {
@@ -131,9 +134,6 @@ class Sampler {
         count.accepted += moves.rebuild_around(frame, idx) ? 1 : 0;
       }
     }
-    if (std::getenv("RB"))
-      for (int w = 0; w < 5; ++w)
-        std::fprintf(stderr, "%ld/%ld ", moves.rebuilds_[w].accepted, moves.rebuilds_[w].proposed);
     return count;
   }
 
@@ -157,10 +157,7 @@ class Sampler {
 
   void go_through(int frame, int sweep, CableMoves& moves) const {
     for (const MoveRate& rate : kRates) {
-      const bool keeps_links = rate.move >= CableMove::kRefit && rate.move < CableMove::kPair;
-      if (sweep < kSettlingSweeps && !keeps_links) continue;
-      if (sweep < kSettlingSweeps + 10 && (rate.move == CableMove::kBirthDeath || rate.move == CableMove::kWhole))
-        continue;
+      if (sweep < kSettlingSweeps && !keeps_links(rate.move)) continue;
       const double num = rate.per_element * elements_per_frame_ + rate.per_cell * state_.num_cells();
       for (int k = 0; k < static_cast<int>(num + 0.5); ++k) moves.propose(rate.move, frame);
     }

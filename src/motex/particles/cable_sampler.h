@@ -13,8 +13,8 @@
 namespace motex {
 
 struct SampleCablesOptions {
-  int sweeps = 40;
-  int search_sweeps = 10;
+  int sweeps = 24;
+  int search_sweeps = 8;
   int learn_sweeps = 0;
   bool static_background = false;
   std::uint64_t seed = 1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace motex {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 constexpr int kBlock = 8;        // columns
 constexpr int kMaxExtent = 176;  // a bar of scale 10 reaches 64 to each side
 constexpr double kGaussianReach = 3.2;
+constexpr double kWellSampled = 0.9;  // scale above which Σ ψ² d^k is its integral within 10⁻³
 constexpr double kDerivativeStep = 1e-3;
 
 struct Box {
@@ -30,10 +32,9 @@ Box box_of(const ResidualFrame& image, double x, double y, int reach_x, int reac
 }
 
 /// e^{−(i + first − centre)²/2s²}, i = 0 … n − 1, zero up to `filled`.
-void fill_table(double centre, double inverse_square, int first, int n, int filled, float* out) {
+void fill_table(double centre, double inverse_square, double step, int first, int n, int filled, float* out) {
   const double d = first - centre;
   double value = std::exp(-0.5 * d * d * inverse_square), ratio = std::exp(-(d + 0.5) * inverse_square);
-  const double step = std::exp(-inverse_square);
   for (int i = 0; i < n; ++i) {
     out[i] = static_cast<float>(value);
     value *= ratio;
@@ -46,6 +47,7 @@ void fill_table(double centre, double inverse_square, int first, int n, int fill
 struct SeparableCore {
   Box box;
   double inverse_square;
+  bool is_whole;  ///< not cut by the picture, and smooth enough for sums to be integrals
   alignas(32) float across[kMaxExtent];
   alignas(32) float down[kMaxExtent];
 
@@ -54,8 +56,10 @@ struct SeparableCore {
     const int reach = std::min(static_cast<int>(std::ceil(kGaussianReach * scale)), kMaxExtent / 2 - kBlock);
     box = box_of(image, z[kCoreX], z[kCoreY], reach, reach);
     inverse_square = 1 / (scale * scale);
-    fill_table(z[kCoreX], inverse_square, box.left, box.seen_width, box.width, across);
-    fill_table(z[kCoreY], inverse_square, box.top, box.height, box.height, down);
+    const double step = std::exp(-inverse_square);
+    fill_table(z[kCoreX], inverse_square, step, box.left, box.seen_width, box.width, across);
+    fill_table(z[kCoreY], inverse_square, step, box.top, box.height, box.height, down);
+    is_whole = scale >= kWellSampled && box.seen_width == 2 * reach + 1 && box.height == 2 * reach + 1;
   }
 };
 
@@ -97,6 +101,11 @@ std::array<double, 5> moments(const float* table, int n, double first) {
   return sums;
 }
 
+std::array<double, 5> whole_moments(double inverse_square) {
+  const double square = 1 / inverse_square, m = std::sqrt(std::numbers::pi * square);
+  return {m, 0, 0.5 * m * square, 0, 0.75 * m * square * square};
+}
+
 /// Σ image ψ · (1, dx, dy, r²).
 std::array<double, 4> image_moments(const ResidualFrame& image, const SeparableCore& core, double first_x,
                                     double first_y) {
@@ -128,8 +137,9 @@ CoreLinearisation linearise_gaussian(const ResidualFrame& image, const CoreState
   const SeparableCore core(image, z);
   const double first_x = core.box.left - z[kCoreX], first_y = core.box.top - z[kCoreY];
   const std::array<double, 4> seen = image_moments(image, core, first_x, first_y);
-  const std::array<double, 5> h = moments(core.across, core.box.width, first_x),
-                              v = moments(core.down, core.box.height, first_y);
+  const std::array<double, 5> h = core.is_whole ? whole_moments(core.inverse_square)
+                                                : moments(core.across, core.box.width, first_x),
+                              v = core.is_whole ? h : moments(core.down, core.box.height, first_y);
   const double q = core.inverse_square, a = z[kCoreAmplitude];
   // Σ of the products of (dx, dy, r², 1) with one another under ψ²
   const std::array<std::array<double, 4>, 4> own{

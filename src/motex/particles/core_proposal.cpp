@@ -14,7 +14,7 @@ constexpr double kWidening = 1.15;   // of deviations
 constexpr double kWideBelief = 0.9;  // pixels: above, the start is searched
 constexpr double kMaxSearch = 7;     // pixels
 constexpr double kLeastPeak = 1.5;   // deviations of a smoothed pixel
-constexpr double kSettled = 1e-3;
+constexpr double kSettled = 0.02;    // of the scale: one Newton step from there is exact enough
 
 }  // namespace
 

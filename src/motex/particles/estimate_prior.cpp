@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRobust = 1.4826;  // deviation of a normal law / its median absolute deviation
 constexpr double kOutlier = 5;      // deviations
-constexpr double kLeastPlaceStep = 0.03, kLeastScaleStep = 0.02, kLeastPeakStep = 2, kLeastTurn = 0.02;
+constexpr double kLeastPlaceStep = 0.03, kLeastScaleStep = 0.04, kLeastPeakStep = 0.05, kLeastTurn = 0.02;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -178,7 +178,7 @@ CablePrior estimate_prior(const std::vector<Cable>& cables, int width, int heigh
   prior.dynamics.log_scale = random_walk(
       cables, [](const Base& base) { return std::log(base.scale); }, kLeastScaleStep);
   prior.dynamics.amplitude = random_walk(
-      cables, [](const Base& base) { return peak_amplitude(base); }, kLeastPeakStep);
+      cables, [](const Base& base) { return peak_amplitude(base); }, kLeastPeakStep * std::abs(prior.amplitude.mean));
   prior.dynamics.angle = random_walk(
       cables, [](const Base& base) { return base.angle; }, kLeastTurn);
   set_bands(prior);
