@@ -3,126 +3,144 @@
 #include "motex/particles/best_pairs.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
-#include <numeric>
+#include <queue>
+#include <utility>
 
 namespace motex {
 namespace {
 
-class Groups {
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Hungarian method on the pairs that exist: for each row a shortest augmenting path (Dijkstra on costs reduced by the
+/// prices), which ends at a free column or where some row on it is better left alone (gain 0). Only what lies nearer
+/// than its end is visited.
+class SparseAssignment {
  public:
-  explicit Groups(int size) : parent_(static_cast<std::size_t>(size)) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int node) {
-    while (at(node) != node) node = at(node) = at(at(node));
-    return node;
+  SparseAssignment(int num_rows, int num_columns, const std::vector<PairGain>& gains)
+      : first_(static_cast<std::size_t>(num_rows) + 1),
+        column_of_(static_cast<std::size_t>(num_rows), -1),
+        row_price_(static_cast<std::size_t>(num_rows)),
+        row_of_(static_cast<std::size_t>(num_columns), -1),
+        from_(static_cast<std::size_t>(num_columns), -1),
+        column_price_(static_cast<std::size_t>(num_columns)),
+        distance_(static_cast<std::size_t>(num_columns), kInfinity) {
+    const auto is_useful = [&](const PairGain& pair) {
+      return pair.gain > 0 && pair.row >= 0 && pair.row < num_rows && pair.column >= 0 && pair.column < num_columns;
+    };
+    for (const PairGain& pair : gains)
+      if (is_useful(pair)) ++first_[static_cast<std::size_t>(pair.row) + 1];
+    for (std::size_t row = 1; row < first_.size(); ++row) first_[row] += first_[row - 1];
+    edges_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (const PairGain& pair : gains)
+      if (is_useful(pair)) edges_[next[static_cast<std::size_t>(pair.row)]++] = {pair.column, -pair.gain};
   }
-  void join(int a, int b) { at(find(a)) = find(b); }
+
+  std::vector<int> solve() {
+    for (int row = 0; row < static_cast<int>(column_of_.size()); ++row) assign(row);
+    return std::move(column_of_);
+  }
 
  private:
-  int& at(int node) { return parent_[static_cast<std::size_t>(node)]; }
-  std::vector<int> parent_;
-};
-
-/// Rows and columns numbered within a group, gains as a dense table.
-struct DenseGroup {
-  std::vector<int> rows, columns;
-  std::vector<double> gains;
-};
-
-/// Hungarian method with potentials: a shortest augmenting path for each row. Every row has a column of its own that
-/// stands for staying alone (gain 0), so a complete assignment exists.
-std::vector<int> solve(const DenseGroup& group) {
-  const std::size_t num_rows = group.rows.size(), num_real = group.columns.size(), num_columns = num_real + num_rows;
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const auto cost = [&](std::size_t row, std::size_t column) {
-    if (column < num_real) return -group.gains[row * num_real + column];
-    return column - num_real == row ? 0.0 : kInfinity;
+  struct Edge {
+    int column = 0;
+    double cost = 0;
   };
-  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  std::vector<double> row_price(num_rows), column_price(num_columns + 1);
-  std::vector<std::size_t> owner(num_columns + 1, kNone), way(num_columns + 1);
-  for (std::size_t start = 0; start < num_rows; ++start) {
-    std::vector<double> shortest(num_columns, kInfinity);
-    std::vector<bool> done(num_columns + 1);
-    std::size_t column = num_columns;
-    owner[column] = start;
-    do {
-      done[column] = true;
-      const std::size_t row = owner[column];
-      double step = kInfinity;
-      std::size_t next = kNone;
-      for (std::size_t c = 0; c < num_columns; ++c) {
-        if (done[c]) continue;
-        const double reduced = cost(row, c) - row_price[row] - column_price[c];
-        if (reduced < shortest[c]) {
-          shortest[c] = reduced;
-          way[c] = column;
-        }
-        if (shortest[c] < step) {
-          step = shortest[c];
-          next = c;
-        }
-      }
-      for (std::size_t c = 0; c <= num_columns; ++c) {
-        if (done[c]) {
-          row_price[owner[c]] += step;
-          column_price[c] -= step;
-        } else {
-          shortest[c] -= step;
-        }
-      }
-      column = next;
-    } while (owner[column] != kNone);
-    for (; column != num_columns; column = way[column]) owner[column] = owner[way[column]];
+  template <typename T>
+  static T& at(std::vector<T>& values, int k) {
+    return values[static_cast<std::size_t>(k)];
   }
-  std::vector<int> column_of(num_rows, -1);
-  for (std::size_t c = 0; c < num_real; ++c)
-    if (owner[c] != kNone && group.gains[owner[c] * num_real + c] > 0) column_of[owner[c]] = group.columns[c];
-  return column_of;
-}
 
-int place_in(const std::vector<int>& sorted, int value) {
-  return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
-}
+  void assign(int start) {
+    double price = 0;
+    for (std::size_t k = at(first_, start); k < at(first_, start + 1); ++k)
+      price = std::min(price, edges_[k].cost - at(column_price_, edges_[k].column));
+    at(row_price_, start) = price;
+    queue_ = {};
+    touched_.clear();
+    done_.clear();
+    double end_distance = kInfinity;
+    int left_alone = -1, free_column = -1, row = start;
+    for (double distance = 0;;) {
+      if (distance - at(row_price_, row) < end_distance) {
+        end_distance = distance - at(row_price_, row);
+        left_alone = row;
+      }
+      relax(row, distance);
+      int column = -1;
+      while (!queue_.empty() && column < 0) {
+        const auto [there, candidate] = queue_.top();
+        if (there > end_distance) break;
+        queue_.pop();
+        if (there <= at(distance_, candidate)) column = candidate;
+        distance = there;
+      }
+      if (column < 0) break;
+      if (at(row_of_, column) < 0) {
+        free_column = column;
+        end_distance = distance;
+        break;
+      }
+      done_.push_back(column);
+      row = at(row_of_, column);
+    }
+    reprice(start, end_distance);
+    augment(start, free_column, left_alone);
+    for (const int column : touched_) at(distance_, column) = kInfinity;
+  }
 
-void sort_unique(std::vector<int>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
+  void relax(int row, double distance) {
+    for (std::size_t k = at(first_, row); k < at(first_, row + 1); ++k) {
+      const Edge& edge = edges_[k];
+      const double there = distance + std::max(0.0, edge.cost - at(row_price_, row) - at(column_price_, edge.column));
+      if (there >= at(distance_, edge.column)) continue;
+      if (at(distance_, edge.column) == kInfinity) touched_.push_back(edge.column);
+      at(distance_, edge.column) = there;
+      at(from_, edge.column) = row;
+      queue_.emplace(there, edge.column);
+    }
+  }
+
+  void reprice(int start, double end_distance) {
+    at(row_price_, start) += end_distance;
+    for (const int column : done_) {
+      const double change = end_distance - at(distance_, column);
+      at(column_price_, column) -= change;
+      at(row_price_, at(row_of_, column)) += change;
+    }
+  }
+
+  void augment(int start, int free_column, int left_alone) {
+    int column = free_column;
+    if (column < 0) {
+      column = at(column_of_, left_alone);
+      at(column_of_, left_alone) = -1;
+      if (left_alone == start) return;
+    }
+    for (int row = at(from_, column);; row = at(from_, column)) {
+      at(row_of_, column) = row;
+      std::swap(at(column_of_, row), column);
+      if (row == start) break;
+    }
+  }
+
+  std::vector<std::size_t> first_;  // edge of each row
+  std::vector<Edge> edges_;
+  std::vector<int> column_of_;
+  std::vector<double> row_price_;
+  std::vector<int> row_of_, from_;
+  std::vector<double> column_price_, distance_;
+  std::vector<int> touched_, done_;
+  using Reached = std::pair<double, int>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> queue_;
+};
 
 }  // namespace
 
 std::vector<int> best_pairs(int num_rows, int num_columns, const std::vector<PairGain>& gains) {
-  Groups groups(num_rows + num_columns);
-  std::vector<PairGain> useful;
-  for (const PairGain& pair : gains)
-    if (pair.gain > 0 && pair.row >= 0 && pair.row < num_rows && pair.column >= 0 && pair.column < num_columns) {
-      useful.push_back(pair);
-      groups.join(pair.row, num_rows + pair.column);
-    }
-  std::stable_sort(useful.begin(), useful.end(),
-                   [&](const PairGain& a, const PairGain& b) { return groups.find(a.row) < groups.find(b.row); });
-  std::vector<int> column_of(static_cast<std::size_t>(num_rows), -1);
-  for (std::size_t first = 0, end = 0; first < useful.size(); first = end) {
-    DenseGroup group;
-    for (end = first; end < useful.size() && groups.find(useful[end].row) == groups.find(useful[first].row); ++end) {
-      group.rows.push_back(useful[end].row);
-      group.columns.push_back(useful[end].column);
-    }
-    sort_unique(group.rows);
-    sort_unique(group.columns);
-    // Pairs that are not possible are worth less than staying alone.
-    group.gains.assign(group.rows.size() * group.columns.size(), -1);
-    for (std::size_t k = first; k < end; ++k) {
-      const auto row = static_cast<std::size_t>(place_in(group.rows, useful[k].row));
-      const auto column = static_cast<std::size_t>(place_in(group.columns, useful[k].column));
-      double& gain = group.gains[row * group.columns.size() + column];
-      gain = std::max(gain, useful[k].gain);
-    }
-    const std::vector<int> solution = solve(group);
-    for (std::size_t k = 0; k < solution.size(); ++k) column_of[static_cast<std::size_t>(group.rows[k])] = solution[k];
-  }
-  return column_of;
+  return SparseAssignment(num_rows, num_columns, gains).solve();
 }
 
 }  // namespace motex

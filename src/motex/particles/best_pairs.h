@@ -13,8 +13,9 @@ struct PairGain {
   double gain = 0;
 };
 
-/// Pairs, no row and no column twice, of the largest total gain (exact: shortest augmenting paths in each connected
-/// group). Gains ≤ 0 and rows or columns outside the counts are left out. Returns the column of each row, −1 = none.
+/// Pairs, no row and no column twice, of the largest total gain (exact: shortest augmenting paths through the pairs
+/// that exist; cost ~ pairs that compete). Gains ≤ 0 and rows or columns outside the counts are left out. Returns the
+/// column of each row, −1 = none.
 std::vector<int> best_pairs(int num_rows, int num_columns, const std::vector<PairGain>& gains);
 
 }  // namespace motex

@@ -12,13 +12,13 @@
 namespace motex {
 namespace {
 
-constexpr double kReach = 3.3;            // deviations; e^{−3.3²/2} = 0.004
-constexpr double kJointDistance = 2.5;    // mean scales: nearer blobs are fitted together
+constexpr double kReach = 3.3;          // deviations; e^{−3.3²/2} = 0.004
+constexpr double kJointDistance = 2.5;  // mean scales: nearer blobs are fitted together
 constexpr std::size_t kLargestCluster = 10;
 constexpr int kMaxIterations = 8;
-constexpr double kMaxStretch = 2;         // aspect e² at most
-constexpr double kEnoughGain = 0.3;       // of the squared error in squared noises: less is not worth a step
-constexpr double kSettled = 0.1;          // step in pixels (or of ln s) that does not touch the neighbours
+constexpr double kMaxStretch = 2;    // aspect e² at most
+constexpr double kEnoughGain = 0.3;  // of the squared error in squared noises: less is not worth a step
+constexpr double kSettled = 0.1;     // step in pixels (or of ln s) that does not touch the neighbours
 
 double square(double value) { return value * value; }
 double square_distance(const Blob& a, const Blob& b) { return square(a.x - b.x) + square(a.y - b.y); }
@@ -304,9 +304,10 @@ class ClusterSolver {
     if (common.is_empty()) return sum;
     for (int y = common.top; y < common.bottom; ++y) {
       const auto at = [&](const Member& m) {
-        return m.derivatives.data() + (static_cast<std::size_t>(y - m.box.top) * static_cast<std::size_t>(m.box.width()) +
-                                       static_cast<std::size_t>(common.left - m.box.left)) *
-                                          N;
+        return m.derivatives.data() +
+               (static_cast<std::size_t>(y - m.box.top) * static_cast<std::size_t>(m.box.width()) +
+                static_cast<std::size_t>(common.left - m.box.left)) *
+                   N;
       };
       const float *da = at(a), *db = at(b);
       for (int x = 0; x < common.width(); ++x, da += N, db += N)
@@ -507,7 +508,8 @@ std::vector<std::vector<int>> BlobFitter::clusters() const {
   std::vector<int> by_x(blobs_.size());
   std::iota(by_x.begin(), by_x.end(), 0);
   const auto blob = [&](int k) -> const Blob& { return blobs_[static_cast<std::size_t>(k)]; };
-  std::sort(by_x.begin(), by_x.end(), [&](int a, int b) { return blob(a).x < blob(b).x || (blob(a).x == blob(b).x && a < b); });
+  std::sort(by_x.begin(), by_x.end(),
+            [&](int a, int b) { return blob(a).x < blob(b).x || (blob(a).x == blob(b).x && a < b); });
   double largest = 0;
   for (const Blob& b : blobs_) largest = std::max(largest, b.scale());
   std::vector<Pair> pairs;

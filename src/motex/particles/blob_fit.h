@@ -57,6 +57,7 @@ class BlobFitter {
   bool split(std::size_t idx, double min_gain);
 
   const std::vector<Blob>& blobs() const { return blobs_; }
+  double noise() const { return options_.noise; }
   const Plane& residual() const { return residual_; }  ///< image − Σ blobs
   /// Mean of residual² within two deviations of the blob's centre; 0 when it lies outside the image.
   double misfit(std::size_t idx) const;

@@ -10,10 +10,10 @@ namespace motex {
 
 /// A local maximum over place and scale.
 struct BlobPeak {
-  double x = 0, y = 0;    ///< pixels, between pixels by a parabola
-  double scale = 1;       ///< of the Gaussian spot that peaks so, pixels
-  double response = 0;    ///< deviations of the response to white noise of deviation 1
-  double amplitude = 0;   ///< of that spot
+  double x = 0, y = 0;   ///< pixels, between pixels by a parabola
+  double scale = 1;      ///< of the Gaussian spot that peaks so, pixels
+  double response = 0;   ///< deviations of the response to white noise of deviation 1
+  double amplitude = 0;  ///< of that spot
 };
 
 /// Local maxima above `threshold` of |G_a − G_2a| * image (or of its positive part alone), a = 0.8 · 2^{j/2} px up to

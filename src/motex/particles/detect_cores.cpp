@@ -13,19 +13,20 @@
 namespace motex {
 namespace {
 
-constexpr int kRounds = 3;               // searches of what the spots found so far leave
+constexpr int kRounds = 3;  // searches of what the spots found so far leave
 constexpr std::size_t kSampleFrames = 7;
 constexpr double kOneSigned = 0.8;       // share of the energy that makes a clip bright (or dark)
 constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest elements
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
 constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
-constexpr double kGaussianMisfit = 0.04;   // up to that an element is a Gaussian, from twice that it has parts
+constexpr double kGaussianMisfit = 0.04;  // up to that an element is a Gaussian, from twice that it has parts
 constexpr double kFaint = 0.08;           // of the amplitude that most of the energy has
-constexpr double kSuspicious = 2;         // deviations of the mean square of what a spot leaves
-constexpr double kSplitGain = 35;         // of the squared error in squared noises, for four more parameters
-constexpr double kAgreement = 0.4;        // of the amplitude expected: the frame agrees with a guess
-constexpr double kWeakRatio = 0.2;       // of a stronger spot's peak there: a part of it
+constexpr int kCleanings = 4;
+constexpr double kSuspicious = 2;   // deviations of the mean square of what a spot leaves
+constexpr double kSplitGain = 35;   // of the squared error in squared noises, for four more parameters
+constexpr double kAgreement = 0.4;  // of the amplitude expected: the frame agrees with a guess
+constexpr double kWeakRatio = 0.2;  // of a stronger spot's peak there: a part of it
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -53,9 +54,7 @@ double shadow(const Blob& blob, double x, double y) {
   return std::abs(blob.amplitude) * std::exp(-0.5 * distance * distance);
 }
 
-double energy_root(const Blob& blob) {
-  return std::abs(blob.amplitude) * blob.scale() * std::sqrt(std::numbers::pi);
-}
+double energy_root(const Blob& blob) { return std::abs(blob.amplitude) * blob.scale() * std::sqrt(std::numbers::pi); }
 
 class Detector {
  public:
@@ -71,10 +70,11 @@ class Detector {
       if (one.is_seen) fitter_.add(one.blob, one.prior);
     fitter_.fit(3);
     for (const ExpectedBlob& one : expected)
-      if (!one.is_seen && one.blob.amplitude * left_amplitude(one.blob) > kAgreement * one.blob.amplitude * one.blob.amplitude)
+      if (!one.is_seen &&
+          one.blob.amplitude * left_amplitude(one.blob) > kAgreement * one.blob.amplitude * one.blob.amplitude)
         fitter_.add(one.blob, one.prior);
     fitter_.fit(2);
-    while (remove_doubtful()) fitter_.fit(2);
+    clean_up();
     has_expected_ = !expected.empty();
   }
 
@@ -82,11 +82,11 @@ class Detector {
     for (int round = has_expected_ ? 1 : 0; round < kRounds; ++round) {
       if (!add_peaks(round)) break;
       fitter_.fit(3);
-      while (remove_doubtful()) fitter_.fit(2);
+      clean_up();
     }
     if (split_pairs()) {
       fitter_.fit(2);
-      while (remove_doubtful()) fitter_.fit(2);
+      clean_up();
     }
     return fitter_.blobs();
   }
@@ -95,7 +95,10 @@ class Detector {
 
  private:
   static FitBlobsOptions fit_options(double noise, const DetectOptions& options) {
-    return {noise, options.shape == CoreShape::kOriented, 0.8 * options.min_scale, 1.25 * options.max_scale};
+    // What elements are not Gaussian by is noise to their fit.
+    const double misfit = std::max(0.0, options.shape_misfit - 0.75 * kGaussianMisfit) * options.min_amplitude / kFaint;
+    return {std::hypot(noise, misfit), options.shape == CoreShape::kOriented, 0.8 * options.min_scale,
+            1.25 * options.max_scale};
   }
 
   bool add_peaks(int round) {
@@ -133,7 +136,8 @@ class Detector {
       const double misfit = options_.shape_misfit * blob.amplitude, expected = noise_ * noise_ + 4 * misfit * misfit;
       const double num_pixels = 4 * std::numbers::pi * blob.scale() * blob.scale();
       if (fitter_.misfit(k) < expected * (1 + kSuspicious * std::sqrt(2 / num_pixels))) continue;
-      fitter_.split(k, kSplitGain + 4 * misfit * misfit / (noise_ * noise_) * num_pixels);
+      const double least = kSplitGain * noise_ * noise_ + 4 * misfit * misfit * num_pixels;
+      fitter_.split(k, least / (fitter_.noise() * fitter_.noise()));
     }
     return fitter_.blobs().size() > num;
   }
@@ -148,6 +152,10 @@ class Detector {
       const double scale = blob.scale(), reach = 6 * scale * std::sqrt(blob.aspect());
       facts_.push_back({blob.x, blob.y, scale, energy_root(blob), reach * reach});
     }
+  }
+
+  void clean_up() {
+    for (int k = 0; k < kCleanings && remove_doubtful(); ++k) fitter_.fit(2);
   }
 
   /// Takes away spots that the fit has shown not to be elements; of two that overlap only the weaker: the other may be
@@ -192,7 +200,8 @@ class Detector {
       if (std::abs(blob.amplitude) < weakest_beside() * shadow(blobs[m], blob.x, blob.y)) return true;
       if (structure_ <= 0) continue;
       const double deviations = distance_in(blobs[m], blob.x, blob.y);
-      if (deviations < 2.5 * structure_ || (deviations < 4 * structure_ && own.energy < 0.5 * other.energy)) return true;
+      if (deviations < 2.5 * structure_ || (deviations < 4 * structure_ && own.energy < 0.5 * other.energy))
+        return true;
     }
     return false;
   }
@@ -251,9 +260,8 @@ double main_amplitude(std::vector<BlobPeak> peaks, CoreSign sign) {
   std::erase_if(peaks, [&](const BlobPeak& peak) {
     return (sign == CoreSign::kBright && peak.amplitude < 0) || (sign == CoreSign::kDark && peak.amplitude > 0);
   });
-  std::sort(peaks.begin(), peaks.end(), [](const BlobPeak& a, const BlobPeak& b) {
-    return std::abs(a.amplitude) > std::abs(b.amplitude);
-  });
+  std::sort(peaks.begin(), peaks.end(),
+            [](const BlobPeak& a, const BlobPeak& b) { return std::abs(a.amplitude) > std::abs(b.amplitude); });
   double all = 0, sum = 0;
   for (const BlobPeak& peak : peaks) all += peak.response * peak.response;
   for (const BlobPeak& peak : peaks) {
@@ -265,7 +273,8 @@ double main_amplitude(std::vector<BlobPeak> peaks, CoreSign sign) {
 
 bool stands_alone(const std::vector<Blob>& blobs, std::size_t k) {
   for (std::size_t m = 0; m < blobs.size(); ++m)
-    if (m != k && std::hypot(blobs[k].x - blobs[m].x, blobs[k].y - blobs[m].y) < 4 * (blobs[k].scale() + blobs[m].scale()))
+    if (m != k &&
+        std::hypot(blobs[k].x - blobs[m].x, blobs[k].y - blobs[m].y) < 4 * (blobs[k].scale() + blobs[m].scale()))
       return false;
   return true;
 }
@@ -277,7 +286,8 @@ std::vector<Blob> outstanding(const Plane& residual, double noise, const DetectO
   const Plane image = options.sign == CoreSign::kDark ? negated(residual) : residual;
   FitBlobsOptions fit{noise, true, 0.8 * options.min_scale, 1.25 * options.max_scale};
   BlobFitter fitter(image, fit);
-  for (const BlobPeak& peak : find_blob_peaks(image, options.max_scale, 2 * options.min_significance * noise, is_both)) {
+  for (const BlobPeak& peak :
+       find_blob_peaks(image, options.max_scale, 2 * options.min_significance * noise, is_both)) {
     bool is_near = false;
     for (const Blob& other : fitter.blobs())
       is_near = is_near || std::hypot(other.x - peak.x, other.y - peak.y) < 2 * std::max(other.scale(), peak.scale);

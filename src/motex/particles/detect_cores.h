@@ -47,9 +47,10 @@ DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& re
 
 /// An element expected in a frame because its path leads there.
 struct ExpectedBlob {
-  Blob blob;           ///< to begin the fit with
-  BlobPrior prior;     ///< amplitudes of the prior have the sign of the element
-  bool is_seen = true; ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
+  Blob blob;        ///< to begin the fit with
+  BlobPrior prior;  ///< amplitudes of the prior have the sign of the element
+  bool is_seen =
+      true;  ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
 };
 
 /// Elements of one frame (residual = luma minus background) as Gaussian spots fitted jointly with their neighbours:

@@ -104,6 +104,12 @@ double ElementFilter::expected_x(int frame) const {
   return axis.p;
 }
 
+double ElementFilter::variance_x(int frame) const {
+  Axis axis = x_;
+  advance(axis, model_->x, frame - frame_);
+  return axis.pp + model_->x.noise_variance;
+}
+
 double ElementFilter::variance_y(int frame) const {
   Axis axis = y_;
   advance(axis, model_->y, frame - frame_);

@@ -60,7 +60,8 @@ class ElementFilter {
   double distance(const Sight& sight) const;
   double expected_x(int frame) const;
   double expected_y(int frame) const;
-  double variance_y(int frame) const;  ///< of a sight around expected_y
+  double variance_x(int frame) const;  ///< of a sight around expected_x
+  double variance_y(int frame) const;
   int frame() const { return frame_; }
 
  private:

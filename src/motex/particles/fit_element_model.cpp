@@ -9,8 +9,8 @@
 namespace motex {
 namespace {
 
-constexpr std::size_t kEnoughSights = 60;     // for anything to be learned
-constexpr std::size_t kSightsPerFit = 5000;   // of as many paths as that takes
+constexpr std::size_t kEnoughSights = 60;    // for anything to be learned
+constexpr std::size_t kSightsPerFit = 5000;  // of as many paths as that takes
 constexpr double kOutlier = 12;
 
 /// −2 ln likelihood of one coordinate of the paths, the first sights taken as given.
@@ -214,7 +214,8 @@ ElementModel fit_element_model(const std::vector<std::vector<Sight>>& paths, con
   const double volume = std::max(1.0, edges.width * edges.height * num_frames);
   const double reach_x = std::abs(model.x.mean_velocity) + 2 + 3 * std::sqrt(model.x.start_variance),
                reach_y = std::abs(model.y.mean_velocity) + 2 + 3 * std::sqrt(model.y.start_variance);
-  const double edge_volume = std::max(1.0, std::min(volume, num_frames * (reach_x * edges.height + reach_y * edges.width)));
+  const double edge_volume =
+      std::max(1.0, std::min(volume, num_frames * (reach_x * edges.height + reach_y * edges.width)));
   model.births = (births + 1) / volume;
   model.entries = std::max(model.births, (entries + 1) / edge_volume);
   model.clutter = (singles + 1) / volume;

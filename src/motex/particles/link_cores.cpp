@@ -19,7 +19,13 @@ using SightFrames = std::vector<std::vector<Sight>>;
 Sight sight_of(double x, double y, double amplitude, double scale, std::size_t frame) {
   if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(amplitude) || !std::isfinite(scale))
     throw InvalidInput("a detection in frame " + std::to_string(frame) + " is not a finite number");
-  return {x, y, std::log(std::max(std::abs(amplitude), 1e-6)), std::log(std::max(scale, 1e-6)), 0, 0, 0,
+  return {x,
+          y,
+          std::log(std::max(std::abs(amplitude), 1e-6)),
+          std::log(std::max(scale, 1e-6)),
+          0,
+          0,
+          0,
           static_cast<int>(frame)};
 }
 
@@ -99,8 +105,8 @@ ElementModel first_element_model(const SightFrames& frames, const FlowEstimate& 
   model.log_scale = level_of(frames, &Sight::log_scale);
   double num = 0;
   for (const auto& frame : frames) num += static_cast<double>(frame.size());
-  const double density =
-      std::max(num, 1.0) / (std::max(1.0, static_cast<double>(width) * height) * std::max<double>(1, static_cast<double>(frames.size())));
+  const double density = std::max(num, 1.0) / (std::max(1.0, static_cast<double>(width) * height) *
+                                               std::max<double>(1, static_cast<double>(frames.size())));
   model.births = 0.02 * density;
   model.entries = 0.2 * density;
   model.clutter = 0.02 * density;
@@ -113,7 +119,9 @@ bool is_element(const SightChain& chain, const ElementModel& model, int width, i
   if (static_cast<int>(chain.sights.size()) >= min_frames) return true;
   const PictureEdges edges{static_cast<double>(width), static_cast<double>(height)};
   const Sight &first = chain.sights.front(), &last = chain.sights.back();
-  const auto is_inside = [&](const Sight& s) { return s.x > -0.5 && s.y > -0.5 && s.x < width - 0.5 && s.y < height - 0.5; };
+  const auto is_inside = [&](const Sight& s) {
+    return s.x > -0.5 && s.y > -0.5 && s.x < width - 0.5 && s.y < height - 0.5;
+  };
   if (std::none_of(chain.sights.begin(), chain.sights.end(), is_inside)) return false;
   return (first.frame == 0 || edges.is_entering(model, first.x, first.y)) &&
          (last.frame == num_frames - 1 || edges.is_leaving(model, last.x, last.y));

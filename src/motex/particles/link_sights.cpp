@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "motex/particles/best_pairs.h"
 #include "motex/particles/fit_element_model.h"
@@ -11,9 +13,11 @@
 namespace motex {
 namespace {
 
-constexpr int kMemory = 10;    // sights before a cut that take part
-constexpr int kForesight = 5;  // sights after it
-constexpr double kGate = 25;   // squared deviations beyond which a join is not looked at
+constexpr int kMemory = 10;           // sights before a cut that take part
+constexpr int kForesight = 5;         // sights after it
+constexpr double kGate = 25;          // squared deviations beyond which a join is not looked at
+constexpr double kMostRivals = 6;     // sights by chance within two deviations: no join across so wide a gap
+constexpr std::size_t kNearest = 10;  // joins looked at for each path and frame
 
 class Linker {
  public:
@@ -149,7 +153,8 @@ class Linker {
       tail_values_[k] = alone(tails_[k]) + log_ends(at(tails_[k]), at(last), last == tails_[k]);
     }
     for (std::size_t row = 0; row < heads_.size(); ++row) add_gains(static_cast<int>(row));
-    const std::vector<int> column_of = best_pairs(static_cast<int>(heads_.size()), static_cast<int>(tails_.size()), gains_);
+    const std::vector<int> column_of =
+        best_pairs(static_cast<int>(heads_.size()), static_cast<int>(tails_.size()), gains_);
     if (measures_doubt_) measure_doubt(column_of);
     relink(column_of);
   }
@@ -160,19 +165,33 @@ class Linker {
     int first = head;
     while (previous(first) >= 0) first = previous(first);
     const double head_ends = log_ends(at(first), at(head), first == head);
-    const int last_frame = std::min({num_frames_ - 1, at(head).frame + 1 + options_.max_gap,
-                                     tails_.empty() ? -1 : at(tails_.back()).frame});
+    const int last_frame = std::min(
+        {num_frames_ - 1, at(head).frame + 1 + options_.max_gap, tails_.empty() ? -1 : at(tails_.back()).frame});
     for (int t = std::max(at(head).frame + 1, tails_.empty() ? num_frames_ : at(tails_.front()).frame); t <= last_frame;
          ++t) {
-      const double reach = std::sqrt(kGate * filter.variance_y(t)), y = filter.expected_y(t);
+      const double variance_y = filter.variance_y(t), y = filter.expected_y(t), reach = std::sqrt(kGate * variance_y);
+      const double density =
+          (first_of_frame_[static_cast<std::size_t>(t) + 1] - first_of_frame_[static_cast<std::size_t>(t)]) /
+          std::max(1.0, edges_.width * edges_.height);
+      const double rivals = 4 * std::numbers::pi * std::sqrt(filter.variance_x(t) * variance_y) * density;
+      if (t > at(head).frame + 1 && rivals > kMostRivals) break;
+      near_.clear();
       const auto begin = by_y_.begin() + first_of_frame_[static_cast<std::size_t>(t)],
                  end = by_y_.begin() + first_of_frame_[static_cast<std::size_t>(t) + 1];
       for (auto id = std::lower_bound(begin, end, y - reach, [&](int a, double value) { return at(a).y < value; });
            id != end && at(*id).y <= y + reach; ++id) {
-        const int column = tail_idx_[static_cast<std::size_t>(*id)];
-        if (column < 0 || filter.distance(at(*id)) > kGate) continue;
+        if (tail_idx_[static_cast<std::size_t>(*id)] < 0) continue;
+        const double distance = filter.distance(at(*id));
+        if (distance <= kGate) near_.emplace_back(distance, *id);
+      }
+      if (near_.size() > kNearest) {
+        std::nth_element(near_.begin(), near_.begin() + kNearest, near_.end());
+        near_.resize(kNearest);
+      }
+      for (const auto& [distance, id] : near_) {
+        const int column = tail_idx_[static_cast<std::size_t>(id)];
         const auto c = static_cast<std::size_t>(column);
-        const double joined = follow(filter, *id) + log_ends(at(first), at(tail_firsts_[c]), false);
+        const double joined = follow(filter, id) + log_ends(at(first), at(tail_firsts_[c]), false);
         gains_.push_back({row, column, joined - head_ends - tail_values_[c]});
       }
     }
@@ -273,6 +292,7 @@ class Linker {
   std::vector<int> heads_, tails_, tail_idx_, tail_firsts_;
   std::vector<double> tail_values_;
   std::vector<PairGain> gains_;
+  std::vector<std::pair<double, int>> near_;
 };
 
 }  // namespace

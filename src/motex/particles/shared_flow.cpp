@@ -8,10 +8,10 @@
 namespace motex {
 namespace {
 
-constexpr double kBin = 0.5;           // pixels
-constexpr double kLargestSpeed = 32;   // pixels a frame, unless told otherwise
-constexpr int kBlurBins = 2;           // deviation of a displacement: 1 px
-constexpr double kSpreadRadius = 5;    // pixels around the peak that belong to it
+constexpr double kBin = 0.5;          // pixels
+constexpr double kLargestSpeed = 32;  // pixels a frame, unless told otherwise
+constexpr int kBlurBins = 2;          // deviation of a displacement: 1 px
+constexpr double kSpreadRadius = 5;   // pixels around the peak that belong to it
 
 double extent_of(const std::vector<std::vector<Base>>& frames) {
   double extent = 0;
@@ -32,8 +32,8 @@ class DisplacementHistogram {
     std::sort(to.begin(), to.end(), by_y);
     const double reach = half_ * kBin;
     for (const Base& a : from) {
-      const auto first = std::lower_bound(to.begin(), to.end(), a.y - reach,
-                                          [](const Base& base, double y) { return base.y < y; });
+      const auto first =
+          std::lower_bound(to.begin(), to.end(), a.y - reach, [](const Base& base, double y) { return base.y < y; });
       for (auto b = first; b != to.end() && b->y <= a.y + reach; ++b)
         if (std::abs(b->x - a.x) <= reach) ++at(bin(b->x - a.x), bin(b->y - a.y));
     }

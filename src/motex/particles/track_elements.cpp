@@ -47,8 +47,7 @@ Sight sight_of(const Blob& blob, int frame) {
 std::vector<std::vector<Sight>> sights_of(const BlobFrames& blobs) {
   std::vector<std::vector<Sight>> sights(blobs.size());
   for (std::size_t t = 0; t < blobs.size(); ++t)
-    for (const Blob& blob : blobs[t])
-      sights[t].push_back(sight_of(blob, static_cast<int>(t)));
+    for (const Blob& blob : blobs[t]) sights[t].push_back(sight_of(blob, static_cast<int>(t)));
   return sights;
 }
 
@@ -67,7 +66,12 @@ const Blob& blob_at(const BlobFrames& blobs, const SightChain& chain, std::size_
 class Expectations {
  public:
   Expectations(const BlobFrames& blobs, const ElementModel& model, int width, int height, bool is_oriented)
-      : blobs_(blobs), model_(model), width_(width), height_(height), is_oriented_(is_oriented), frames_(blobs.size()) {}
+      : blobs_(blobs),
+        model_(model),
+        width_(width),
+        height_(height),
+        is_oriented_(is_oriented),
+        frames_(blobs.size()) {}
 
   void add(const SightChain& chain) {
     const bool is_sure = chain.sights.size() >= kSureLength;
@@ -116,7 +120,8 @@ class Expectations {
     const double wider = kWidening * kWidening;
     const double vx = 0.01 + wider * place.others_variance_x, vy = 0.01 + wider * place.others_variance_y;
     one.prior.mean = {place.others_x, place.others_y, log_scale, 0, 0, amplitude};
-    one.prior.precision = {1 / vx, 1 / vy, 1 / (scale_spread * scale_spread), 0, 0, 1 / (amplitude_spread * amplitude_spread)};
+    one.prior.precision = {1 / vx, 1 / vy, 1 / (scale_spread * scale_spread),
+                           0,      0,      1 / (amplitude_spread * amplitude_spread)};
     if (is_oriented_)
       for (const std::size_t p : {std::size_t{3}, std::size_t{4}}) {
         double spread = 0;
@@ -223,8 +228,7 @@ std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& backgro
   for (int round = 0; round < options.rounds; ++round) {
     job.check_cancelled();
     job.progress("tracking elements", static_cast<double>(round) / options.rounds);
-    Expectations expected(blobs, out.link.model, frames.width, frames.height,
-                          out.detect.shape == CoreShape::kOriented);
+    Expectations expected(blobs, out.link.model, frames.width, frames.height, out.detect.shape == CoreShape::kOriented);
     for (const SightChain& chain : chains) expected.add(chain);
     BlobFrames found(blobs.size());
     parallel_for(job.jobs, num_frames, [&](int t) {
