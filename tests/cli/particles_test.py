@@ -223,6 +223,21 @@ class Tracks(CommandTest):
         self.fail_with(2, "particles", "tracks", self.model, "-o", out, saying="--force")
         self.assertEqual(out.read_text(), "old")
 
+    def test_maps(self):
+        maps = self.folder / "maps"
+        report = self.one_json_object("particles", "maps", self.model, "-o", maps)
+        for name in ["source", "sink", "hazard", "occupancy", "maps"]:
+            self.assertTrue((maps / f"{name}.png").read_bytes().startswith(b"\x89PNG"), name)
+        births = (maps / "births.csv").read_text().splitlines()
+        self.assertEqual(births[0], "track,frame,x,y,vx,vy")
+        self.assertEqual(len(births) - 1, report["births"])
+        self.assertEqual(json.loads((maps / "maps.json").read_text())["births_per_frame"], report["births_per_frame"])
+        self.fail_with(2, "particles", "maps", self.model, "-o", maps, saying="--force")
+        self.fail_with(2, "particles", "maps", self.video, "-o", self.folder / "m", saying="particles learn")
+        self.fail_with(2, "particles", "maps", self.model, saying="-o")
+        self.succeed("particles", "maps", self.model, "-o", self.folder / "m", "--dry-run")
+        self.assertFalse((self.folder / "m").exists())
+
     def test_explain(self):
         odd, table = self.folder / "odd.png", self.folder / "odd.csv"
         value = self.one_json_object("particles", "explain", self.model, self.video, "--map", odd, "--tracks", table)
@@ -256,6 +271,64 @@ class Tracks(CommandTest):
             self.fail_with(2, "particles", "decompress", small, "-o", self.folder / "x.mkv", saying=r"snow\.mtxc")
         self.fail_with(2, "particles", "decompress", self.model, "-o", self.folder / "x.mkv", saying="compressed by motex")
         self.fail_with(2, "particles", "compress", self.video, "-o", self.folder / "x.zip", saying="mtxc")
+
+
+class Simulate(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.target = self.folder / "scene"
+        self.small = ("--width", "64", "--height", "48", "--frames", "20", "--elements", "12")
+
+    def rows(self, folder):
+        lines = (folder / "tracks.csv").read_text().splitlines()
+        self.assertEqual(lines[0], "track,frame,x,y,scale,angle,amplitude,state")
+        return [[float(word) for word in line.split(",")] for line in lines[1:]]
+
+    def test_snow(self):
+        report = self.one_json_object("particles", "simulate", "snow", "-o", self.target, *self.small, "--wind", "-1")
+        truth = json.loads((self.target / "truth.json").read_text())
+        self.assertEqual(report["truth"]["mean_velocity"], [-1, 3])
+        self.assertEqual(truth["options"]["seed"], report["seed"])
+        rows = self.rows(self.target)
+        self.assertEqual(truth["points"], len(rows))
+        for row in rows:
+            self.assertTrue(-0.5 <= row[2] < 63.5 and -0.5 <= row[3] < 47.5 and 0 <= row[1] < 20, row)
+        self.assertTrue((self.target / "background.png").read_bytes().startswith(b"\x89PNG"))
+        again = self.folder / "again"
+        self.succeed("particles", "simulate", "snow", "-o", again, *self.small, "--wind", "-1", "--jobs", "1")
+        for name in ["scene.mkv", "tracks.csv", "truth.json"]:
+            self.assertEqual((self.target / name).read_bytes(), (again / name).read_bytes(), name)
+        score = self.one_json_object("particles", "score", "--truth", again / "tracks.csv", "--tracks", again / "tracks.csv")
+        self.assertEqual(score["beta"], 1)
+
+    def test_birds_and_fireworks(self):
+        self.succeed("particles", "simulate", "birds", "-o", self.target, *self.small)
+        truth = json.loads((self.target / "truth.json").read_text())
+        for row in truth["wing_transitions"]:
+            self.assertAlmostEqual(sum(row), 1)
+        self.assertLessEqual({row[7] for row in self.rows(self.target)}, {0, 1, 2})
+        show = self.folder / "show"
+        self.succeed("particles", "simulate", "fireworks", "-o", show, *self.small, "--bursts", "2")
+        bursts = json.loads((show / "truth.json").read_text())["bursts"]
+        self.assertEqual(len(bursts), 2)
+        self.assertEqual(bursts[1]["first_track"], bursts[0]["sparks"])
+
+    def test_bad_requests_write_nothing(self):
+        for arguments, saying in [
+            (("snow", "-o", self.target, "--persistence", "1"), "persistence"),
+            (("snow", "-o", self.target, "--min-size", "9"), "min_size"),
+            (("birds", "-o", self.target, "--frames", "0"), "frames"),
+            (("fireworks",), "-o"),
+            (("rain", "-o", self.target), "rain"),
+            (("snow", "-o", self.folder / "no" / "such"), "no folder"),
+        ]:
+            self.fail_with(2, "particles", "simulate", *arguments, saying=saying)
+        self.succeed("particles", "simulate", "snow", "-o", self.target, *self.small, "--dry-run")
+        self.assertEqual(self.files(), [])
+        self.target.mkdir()
+        (self.target / "tracks.csv").write_text("old")
+        self.fail_with(2, "particles", "simulate", "snow", "-o", self.target, *self.small, saying="--force")
+        self.assertEqual((self.target / "tracks.csv").read_text(), "old")
 
 
 if __name__ == "__main__":
