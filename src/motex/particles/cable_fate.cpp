@@ -17,6 +17,7 @@ constexpr double kBorder = 1.5;           // pixels and core scales that a track
 constexpr double kLongestResidence = 10;  // clip lengths
 constexpr double kPriorPresences = 20;    // of the mean hazard, in each cell and at each age
 constexpr std::size_t kNumAges = 200;
+constexpr std::array<double, 12> kFrailties{1e4, 100, 30, 10, 5, 3, 2, 1, 0.5, 0.3, 0.2, 0.1};  // κ
 
 /// Frames until a straight path leaves the picture, and where.
 struct Exit {
@@ -197,6 +198,32 @@ DeathLaw learn_death_law(const TexturedMotion& model, const std::vector<CableFat
   return law_of(model, count_deaths(model, fates, 2), score[1] > score[0]);
 }
 
+double learn_frailties(const TexturedMotion& model, const DeathLaw& deaths, std::vector<CableFate>& fates) {
+  std::vector<double> hazards, died;
+  for (std::size_t k = 0; k < fates.size(); ++k) {
+    const Cable& cable = model.cables[k];
+    const bool dies_inside = fates[k].death_seen && !fates[k].leaves;
+    double sum = 0;
+    for (std::size_t age = 0; age + (dies_inside ? 0 : 1) < cable.core.size(); ++age)
+      sum += deaths.probability(cable.core[age].x, cable.core[age].y, static_cast<std::int64_t>(age));
+    hazards.push_back(sum);
+    died.push_back(dies_inside ? 1 : 0);
+  }
+  double best = 0, kappa = kFrailties[0];
+  for (const double candidate : kFrailties) {
+    // log ∫ m^d e^{−m H} Gamma(m; κ, κ) dm
+    double score = 0;
+    for (std::size_t k = 0; k < hazards.size(); ++k)
+      score += (candidate + died[k]) * (std::log(candidate) - std::log(candidate + hazards[k]));
+    if (candidate == kFrailties[0] || score > best) {
+      best = score;
+      kappa = candidate;
+    }
+  }
+  for (std::size_t k = 0; k < fates.size(); ++k) fates[k].frailty = (died[k] + kappa) / (hazards[k] + kappa);
+  return kappa;
+}
+
 DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map) {
   const int width = num_cells(model.width), height = num_cells(model.height);
   Plane share(width, height), presences(width, height);
@@ -227,7 +254,7 @@ DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map) {
 }
 
 std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std::vector<CableFate>& fates,
-                                         const DeathLaw& deaths, Rng& rng) {
+                                         const DeathLaw& deaths, double kappa, Rng& rng) {
   double num_inside = 0, num_presences = 0;
   for (std::size_t k = 0; k < fates.size(); ++k) {
     num_inside += fates[k].birth_seen && !fates[k].enters ? 1 : 0;
@@ -245,6 +272,10 @@ std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std:
     const Cable& cable = model.cables[k];
     if (cable.core.empty() || fate.in_burst) continue;
     const Base &first = cable.core.front(), &last = cable.core.back();
+    // as easily as it dies, it may have been born a moment ago
+    const double seen_inside = fate.birth_seen && !fate.enters ? 1 : 0;
+    const double born_like =
+        born_inside * (seen_inside + kappa) / (born_inside * static_cast<double>(cable.core.size()) + kappa);
     BirthExample example{static_cast<int>(k),
                          first.x,
                          first.y,
@@ -258,7 +289,7 @@ std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std:
                          0};
     if (!fate.birth_seen && !fate.enters) {
       const Exit entry = exit_of(model, first.x, first.y, -fate.vx, -fate.vy);
-      const double before = ends_within(std::min(entry.frames, longest), born_inside);
+      const double before = ends_within(std::min(entry.frames, longest), born_like);
       example.enters = before >= entry.frames;
       example.side = entry.side;
       example.x -= before * fate.vx;
@@ -266,8 +297,8 @@ std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std:
       example.residence += before;
     }
     if (!fate.death_seen && !fate.leaves)
-      example.residence +=
-          ends_within(std::min(exit_of(model, last.x, last.y, fate.vx, fate.vy).frames, longest), deaths.mean);
+      example.residence += ends_within(std::min(exit_of(model, last.x, last.y, fate.vx, fate.vy).frames, longest),
+                                       deaths.mean * fate.frailty);
     if (example.residence >= longest) example.life = static_cast<std::int64_t>(example.residence);
     example.rate = static_cast<double>(cable.core.size()) / (clip * example.residence);
     examples.push_back(example);

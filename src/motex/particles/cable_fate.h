@@ -20,6 +20,10 @@ struct CableFate {
   bool leaves = false;                ///< likewise at its end
   int side = 0;                       ///< over which border it came: 0 left, 1 top, 2 right, 3 bottom
   bool in_burst = false;              ///< born together with others
+  /// How many times as easily it dies inside as others would on its path: the posterior mean (d + κ)/(H + κ), where
+  /// d = 1 if it did, H = the hazards it went through, of a gamma distribution of mean 1 and variance 1/κ; κ is the
+  /// likeliest. Birds live long beside specks that are lost again; one hazard for both would thin out the birds.
+  double frailty = 1;
 };
 
 std::vector<CableFate> fates_of(const TexturedMotion& model);
@@ -38,6 +42,8 @@ struct DeathLaw {
 };
 
 DeathLaw learn_death_law(const TexturedMotion& model, const std::vector<CableFate>& fates);
+/// Sets all frailties. Returns κ.
+double learn_frailties(const TexturedMotion& model, const DeathLaw& deaths, std::vector<CableFate>& fates);
 /// Deaths where a map says so: its brightness shares out the deaths that the clip has a frame, those by leaving the
 /// picture included. map: size of the picture.
 DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map);
@@ -60,7 +66,7 @@ struct BirthExample {
 /// has its share of it: censoring costs nothing, elements that were there from the first to the last frame count as
 /// much as they should.
 std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std::vector<CableFate>& fates,
-                                         const DeathLaw& deaths, Rng& rng);
+                                         const DeathLaw& deaths, double kappa, Rng& rng);
 
 /// Bursts a frame like each one, by the same law: those that the clip cuts off count less than one in T.
 std::vector<double> burst_rates(const TexturedMotion& model, const std::vector<CableFate>& fates,

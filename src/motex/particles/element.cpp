@@ -3,12 +3,64 @@
 #include "motex/particles/element.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "motex/particles/cable_tracks.h"
 
 namespace motex {
 namespace {
+
+constexpr double kWellInside = 1.5;  // core scales from the border
+
+constexpr std::array<double, 9> kFreedoms{1e4, 100, 30, 15, 8, 5, 3, 2, 1};
+constexpr std::array<double, 8> kTypicalShares{1, 0.85, 0.7, 0.5, 0.35, 0.2, 0.1, 0.03};
+
+constexpr double kFewPairs = 50;  // residuals that tell nothing of correlation
+
+/// c_i given the cable: normal.
+struct ConstantBelief {
+  double mean = 0, deviation = 0;
+};
+
+ConstantBelief constant_of(const CoordinateDynamics& law, std::span<const double> values, bool is_place) {
+  double start = law.start_mean;
+  if (is_place && values.size() > 1) start = values[1] - values[0];
+  if (!is_place && !values.empty()) start = values[0];
+  const double explained = law.c_slope * law.start_deviation;
+  const double prior_variance = std::max(0.0, law.c_spread * law.c_spread - explained * explained);
+  const double prior_mean = law.c + law.c_slope * (start - law.start_mean);
+  double sum = 0;
+  const auto num_steps = static_cast<double>(values.size() < 3 ? 0 : values.size() - 2);
+  for (std::size_t t = 2; t < values.size(); ++t) sum += values[t] - law.a * values[t - 1] - law.b * values[t - 2];
+  if (prior_variance <= 0) return {prior_mean, 0};
+  if (law.d <= 0) return {num_steps > 0 ? sum / num_steps : prior_mean, 0};
+  const double precision = 1 / prior_variance + num_steps / (law.d * law.d);
+  return {(prior_mean / prior_variance + sum / (law.d * law.d)) / precision, 1 / std::sqrt(precision)};
+}
+
+struct Residuals {
+  double num = 0, squares = 0;
+  double products = 0, paired_squares = 0;  // of one with the next
+};
+
+Residuals residuals_of(const CoordinateDynamics& law, std::span<const double> values) {
+  const double constant = constant_of(law, values, true).mean;
+  Residuals out;
+  double last = 0;
+  for (std::size_t t = 2; t < values.size(); ++t) {
+    const double rest = values[t] - law.a * values[t - 1] - law.b * values[t - 2] - constant;
+    out.squares += rest * rest;
+    if (out.num > 0) {
+      out.products += rest * last;
+      out.paired_squares += (rest * rest + last * last) / 2;
+    }
+    last = rest;
+    out.num += 1;
+  }
+  return out;
+}
 
 double reach_of_bases(const Base& core, std::span<const Base> bases) {
   double reach = 0;
@@ -26,26 +78,84 @@ void fade(Base& base, double strength) {
 }  // namespace
 
 double draw_constant_like(const CoordinateDynamics& law, std::span<const double> values, bool is_place, Rng& rng) {
-  double start = law.start_mean;
-  if (is_place && values.size() > 1) start = values[1] - values[0];
-  if (!is_place && !values.empty()) start = values[0];
-  const double explained = law.c_slope * law.start_deviation;
-  const double prior_variance = std::max(0.0, law.c_spread * law.c_spread - explained * explained);
-  const double prior_mean = law.c + law.c_slope * (start - law.start_mean);
-  double sum = 0;
-  const auto num_steps = static_cast<double>(values.size() < 3 ? 0 : values.size() - 2);
-  for (std::size_t t = 2; t < values.size(); ++t) sum += values[t] - law.a * values[t - 1] - law.b * values[t - 2];
-  if (prior_variance <= 0) return prior_mean;
-  if (law.d <= 0) return num_steps > 0 ? sum / num_steps : prior_mean;
-  const double precision = 1 / prior_variance + num_steps / (law.d * law.d);
-  const double mean = (prior_mean / prior_variance + sum / (law.d * law.d)) / precision;
-  return mean + rng.normal() / std::sqrt(precision);
+  const ConstantBelief belief = constant_of(law, values, is_place);
+  return belief.deviation > 0 ? belief.mean + belief.deviation * rng.normal() : belief.mean;
 }
 
-ElementLooks ElementLooks::replay(const Cable& cable) {
+NoiseSpread learn_noise_spread(const CoordinateDynamics& law, const std::vector<std::vector<double>>& places) {
+  std::vector<Residuals> all;
+  for (const std::vector<double>& values : places)
+    if (values.size() > 2) all.push_back(residuals_of(law, values));
+  NoiseSpread best{law.d, kFreedoms[0], 0};
+  if (all.empty() || law.d <= 0) return best;
+  double products = 0, squares = 0;
+  for (const Residuals& own : all) {
+    products += own.products / std::max(1e-300, own.squares / own.num);
+    squares += own.paired_squares / std::max(1e-300, own.squares / own.num);
+  }
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const double freedom : kFreedoms)
+    for (const double share : kTypicalShares) {
+      const double square = share * law.d * law.d, half = freedom / 2;
+      double score = 0;
+      for (const Residuals& own : all)
+        score += std::lgamma(half + own.num / 2) - std::lgamma(half) + half * std::log(freedom * square) -
+                 (half + own.num / 2) * std::log(freedom * square + own.squares);
+      if (score <= highest) continue;
+      highest = score;
+      best = {std::sqrt(square), freedom, 0};
+    }
+  if (squares >= kFewPairs) best.correlation = products / squares;
+  return best;
+}
+
+double noise_like(const NoiseSpread& spread, const CoordinateDynamics& law, std::span<const double> values) {
+  if (values.size() < 3) return spread.typical;
+  const Residuals own = residuals_of(law, values);
+  return std::sqrt((spread.freedom * spread.typical * spread.typical + own.squares) / (spread.freedom + own.num));
+}
+
+double constant_and_residuals(const CoordinateDynamics& law, std::span<const double> values,
+                              std::vector<double>& residuals) {
+  const double constant = constant_of(law, values, true).mean;
+  residuals.clear();
+  for (std::size_t t = 2; t < values.size(); ++t)
+    residuals.push_back(values[t] - law.a * values[t - 1] - law.b * values[t - 2] - constant);
+  return constant;
+}
+
+double CoordinateWalk::draw(Rng& rng) {
+  if (residuals.empty()) return noise * rng.normal();
+  const std::size_t last = residuals.size() - 1, place = last == 0 ? 0 : num_steps % (2 * last);
+  ++num_steps;
+  return residuals[place <= last ? place : 2 * last - place];
+}
+
+ElementLooks ElementLooks::replay(const Cable& cable, int width, int height) {
   ElementLooks looks;
   looks.cable_ = &cable;
-  const std::size_t middle = cable.core.size() / 2;
+  const auto depth = [width, height](const Base& base) {  // inside the picture, in scales
+    return std::min({base.x, base.y, width - 1 - base.x, height - 1 - base.y}) / base.scale;
+  };
+  std::size_t first = 0, longest = 0;
+  for (std::size_t k = 0; k <= cable.core.size(); ++k) {
+    if (k < cable.core.size() && depth(cable.core[k]) >= kWellInside) continue;
+    if (k - first > longest) {
+      longest = k - first;
+      looks.first_ = first;
+      looks.last_ = k - 1;
+    }
+    first = k + 1;
+  }
+  if (longest == 0) {
+    const auto deepest = std::max_element(cable.core.begin(), cable.core.end(),
+                                          [&](const Base& a, const Base& b) { return depth(a) < depth(b); });
+    looks.first_ = looks.last_ = static_cast<std::size_t>(deepest - cable.core.begin());
+  }
+  for (std::size_t k = looks.first_; k <= looks.last_; ++k)
+    for (const float coefficient : cable.core[k].coefficients)
+      looks.strongest_ = std::max(looks.strongest_, std::abs(coefficient));
+  const std::size_t middle = (looks.first_ + looks.last_) / 2;
   std::vector<Base> bases{cable.core[middle]};
   for (const std::vector<Base>& coil : cable.coils) bases.push_back(coil[middle]);
   looks.reach_ = reach_of_bases(bases[0], bases);
@@ -66,10 +176,10 @@ ElementLooks ElementLooks::sampled(const MovetonTemplate& of, int num_planes, Rn
 }
 
 std::size_t ElementLooks::frame_at(std::int64_t age) const {
-  const auto last = static_cast<std::int64_t>(cable_->core.size()) - 1;
-  if (last <= 0) return 0;
-  const std::int64_t place = std::abs(age) % (2 * last);
-  return static_cast<std::size_t>(place <= last ? place : 2 * last - place);
+  const auto num_steps = static_cast<std::int64_t>(last_ - first_);
+  if (num_steps == 0) return first_;
+  const std::int64_t place = std::abs(age) % (2 * num_steps);
+  return first_ + static_cast<std::size_t>(place <= num_steps ? place : 2 * num_steps - place);
 }
 
 int ElementLooks::pose(std::int64_t age) const {
@@ -99,7 +209,11 @@ void ElementLooks::append(double x, double y, double scale, double angle, double
       bases.back().y += y - core.y;
     };
     append_moved(core);
-    for (const std::vector<Base>& coil : cable_->coils) append_moved(coil[frame]);
+    for (const std::vector<Base>& coil : cable_->coils) {
+      append_moved(coil[frame]);
+      for (float& coefficient : bases.back().coefficients)
+        coefficient = std::clamp(coefficient, -strongest_, strongest_);
+    }
   }
   if (strength < 1)
     for (std::size_t k = first; k < bases.size(); ++k) fade(bases[k], strength);

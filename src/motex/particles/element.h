@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "motex/core/rng.h"
 #include "motex/particles/cable_fate.h"
@@ -14,23 +16,46 @@
 
 namespace motex {
 
-/// One coordinate of one element on its way: z_t = a z_{t−1} + b z_{t−2} + c_i + d n.
+/// One coordinate of one element on its way: z_t = a z_{t−1} + b z_{t−2} + c_i + d_i n_t.
 struct CoordinateWalk {
   double now = 0, before = 0;
-  double constant = 0;  ///< c_i
-  double noise = 0;     ///< d
+  double constant = 0;            ///< c_i
+  double noise = 0;               ///< d_i
+  std::vector<double> residuals;  ///< d_i n_t one after another, forwards and backwards in turn; empty: n ~ N(0, 1)
+  std::size_t num_steps = 0;
 
   void step(const CoordinateDynamics& law, Rng& rng) {
-    const double next = law.a * now + law.b * before + constant + noise * rng.normal();
+    const double next = law.a * now + law.b * before + constant + draw(rng);
     before = now;
     now = next;
   }
+
+ private:
+  double draw(Rng& rng);
 };
 
 /// c_i of a cable that was observed, from its posterior: before any step N(c + c_slope (start − start_mean), rest²)
 /// as draw_cable_constant() has it, each step tells z_t − a z_{t−1} − b z_{t−2} = c_i + d n. Elements made like this
 /// cable then have its drift, as well as the cable shows it.
 double draw_constant_like(const CoordinateDynamics& law, std::span<const double> values, bool is_place, Rng& rng);
+
+/// What the noise of a coordinate is beyond [TM02]. d_i² ~ scaled inverse chi-square of so many degrees of freedom
+/// around typical² (many: all alike): beside smooth flights others jitter, and one d would be wrong for both.
+struct NoiseSpread {
+  double typical = 0;
+  double freedom = 1e4;
+  double correlation = 0;  ///< of a residual with the next; 0 = white
+  /// A bird that circles turns on for many frames: no white noise of the second-order law does that. Then elements take
+  /// the residuals of the cable that they are like, in their order.
+  bool is_white() const { return correlation < 0.5; }
+};
+/// From paths of one coordinate: the likeliest of a grid.
+NoiseSpread learn_noise_spread(const CoordinateDynamics& law, const std::vector<std::vector<double>>& places);
+/// d_i of a cable that was observed: root of the posterior mean (ν typical² + Σ residuals²)/(ν + n).
+double noise_like(const NoiseSpread& spread, const CoordinateDynamics& law, std::span<const double> values);
+/// c_i of a cable in the mean, and its residuals about that.
+double constant_and_residuals(const CoordinateDynamics& law, std::span<const double> values,
+                              std::vector<double>& residuals);
 
 /// Edits that change how everything moves.
 struct MotionEdit {
@@ -43,8 +68,10 @@ struct MotionEdit {
 class ElementLooks {
  public:
   ElementLooks() = default;
-  /// Core and coils of that cable again; where it is too short, forwards and backwards in turn.
-  static ElementLooks replay(const Cable& cable);
+  /// Core and coils of that cable again; where it is too short, forwards and backwards in turn. Frames in which it was
+  /// at the border of its picture (width × height), where bases are not well determined, are left out; so is of a coil
+  /// what would outshine the core.
+  static ElementLooks replay(const Cable& cable, int width, int height);
   /// A moveton drawn from the template. The template must outlive it.
   static ElementLooks sampled(const MovetonTemplate& of, int num_planes, Rng& rng);
 
@@ -64,6 +91,8 @@ class ElementLooks {
   std::size_t frame_at(std::int64_t age) const;
 
   const Cable* cable_ = nullptr;
+  std::size_t first_ = 0, last_ = 0;  // frames of the cable that are shown: those well inside its picture
+  float strongest_ = 0;               // coefficient of its core
   std::optional<SampledMoveton> moveton_;
   double reach_ = 0;
 };
@@ -79,6 +108,7 @@ struct Element {
   std::int64_t age = 0;                                                                 ///< frames since birth
   std::int64_t outside = 0;  ///< frames before it came into the picture
   std::int64_t life = -1;    ///< frames until it vanishes; −1: the death law says
+  double frailty = 1;        ///< times the death law
   std::int64_t fading = -1;  ///< frames since it died
   bool fades_in = false;
   bool came_in = false;  ///< has been inside

@@ -18,6 +18,7 @@ constexpr std::int64_t kLongestOutside = 150;  // frames that an element may str
 constexpr double kFarOutside = 100;            // pixels
 constexpr int kMostBackSteps = 200;
 constexpr std::size_t kFewSteps = 30;  // of a species that are too few for dynamics of its own
+constexpr std::size_t kFewestResiduals = 3;
 constexpr double kPersistent = 0.98;
 
 bool is_outside(double x, double y, double margin, const TexturedMotion& model) {
@@ -61,7 +62,8 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
       deaths_(learn_death_law(model, fates_)),
       laws_(laws_of(model)) {
   Rng rng = rng_.fork(1);
-  examples_ = birth_examples(model, fates_, deaths_, rng);
+  const double kappa = learn_frailties(model, deaths_, fates_);
+  examples_ = birth_examples(model, fates_, deaths_, kappa, rng);
   burst_rates_ = burst_rates(model, fates_, deaths_);
   if (options_.looks_of != nullptr || options_.looks_of_species >= 0)
     for (std::size_t k = 0; k < looks_model_.cables.size(); ++k) {
@@ -69,6 +71,7 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
       const bool fits = options_.looks_of_species < 0 || cable.species == options_.looks_of_species;
       if (fits && !cable.core.empty()) looks_cables_.push_back(static_cast<int>(k));
     }
+  learn_noise();
   report_.learned_per_frame = learned_per_frame(true);
   report_.deaths_by_age = deaths_.by_age;
 }
@@ -165,9 +168,22 @@ void CableSynthesizer::Population::be_born(std::vector<ElementBirth>& births) {
   births.clear();
 }
 
-const MovetonDynamics& CableSynthesizer::Population::law_of(int species) const {
+std::size_t CableSynthesizer::Population::law_idx(int species) const {
   const bool is_free = species < 0 || static_cast<std::size_t>(species) + 1 >= laws_.size();
-  return is_free ? laws_.back() : laws_[static_cast<std::size_t>(species)];
+  return is_free ? laws_.size() - 1 : static_cast<std::size_t>(species);
+}
+
+void CableSynthesizer::Population::learn_noise() {
+  for (std::size_t species = 0; species < laws_.size(); ++species) {
+    std::vector<std::vector<double>> x, y;
+    for (const Cable& cable : model_.cables) {
+      if (law_idx(cable.species) != species) continue;
+      x.push_back(values_of(cable, [](const Base& base) { return base.x; }));
+      y.push_back(values_of(cable, [](const Base& base) { return base.y; }));
+    }
+    noise_x_.push_back(learn_noise_spread(laws_[species].x, x));
+    noise_y_.push_back(learn_noise_spread(laws_[species].y, y));
+  }
 }
 
 void CableSynthesizer::Population::choose_looks(Element& element, int cable, int species) {
@@ -180,7 +196,7 @@ void CableSynthesizer::Population::choose_looks(Element& element, int cable, int
   element.species = species;
   const bool has_template = species >= 0 && static_cast<std::size_t>(species) < looks_model_.templates.size();
   if (options_.appearance == ParticleAppearance::kReplay || !has_template) {
-    element.looks = ElementLooks::replay(source);
+    element.looks = ElementLooks::replay(source, looks_model_.width, looks_model_.height);
     return;
   }
   element.looks = ElementLooks::sampled(looks_model_.templates[static_cast<std::size_t>(species)],
@@ -193,8 +209,9 @@ void CableSynthesizer::Population::add(const ElementBirth& birth) {
   element.rng = birth.rng;
   element.is_burst = birth.is_burst;
   element.life = birth.life;
+  element.frailty = fates_[static_cast<std::size_t>(birth.cable)].frailty;
   element.fades_in = !birth.is_burst && !birth.enters;
-  element.law = &law_of(cable.species);
+  element.law = &laws_[law_idx(cable.species)];
   element.looks_rng = birth.rng.fork(1);  // so that motion does not depend on looks
   start_motion(element, birth);
   if (draws_looks_) choose_looks(element, birth.cable, cable.species);
@@ -203,26 +220,32 @@ void CableSynthesizer::Population::add(const ElementBirth& birth) {
 
 void CableSynthesizer::Population::start_motion(Element& element, const ElementBirth& birth) {
   const Cable& cable = model_.cables[static_cast<std::size_t>(birth.cable)];
-  const auto start_place = [&](CoordinateWalk& walk, const CoordinateDynamics& law, double place, auto value,
-                               double wind) {
+  const auto start_place = [&](CoordinateWalk& walk, const CoordinateDynamics& law, const NoiseSpread& spread,
+                               double place, auto value, double wind) {
     const std::vector<double> values = values_of(cable, value);
     const double phi = law.persistence();
     const double constant = draw_constant_like(law, values, true, element.rng);
     const double drift = std::abs(phi) < kPersistent ? constant / (1 - phi) : law.start_mean;
-    const double deviation = std::abs(phi) < kPersistent ? law.d / std::sqrt(1 - phi * phi) : 0;
+    const double own_noise = noise_like(spread, law, values);
+    const double deviation = std::abs(phi) < kPersistent ? own_noise / std::sqrt(1 - phi * phi) : 0;
     const double noise = element.rng.normal();
     double velocity = drift + deviation * noise;
     if (birth.starts_like && values.size() > 1) velocity = values[1] - values[0];
     walk.now = place;
     walk.before = place - motion_.speed * velocity - wind;
     walk.constant = motion_.speed * constant + (1 - phi) * wind;
-    walk.noise = motion_.speed * law.d;
+    walk.noise = motion_.speed * own_noise;
+    if (spread.is_white() || values.size() < kFewestResiduals + 2) return;
+    const double mean = constant_and_residuals(law, values, walk.residuals);
+    for (double& residual : walk.residuals) residual *= motion_.speed;
+    walk.constant = motion_.speed * mean + (1 - phi) * wind;
   };
   const MovetonDynamics& law = *element.law;
+  const std::size_t idx = law_idx(cable.species);
   start_place(
-      element.x, law.x, birth.x, [](const Base& base) { return base.x; }, motion_.wind_x);
+      element.x, law.x, noise_x_[idx], birth.x, [](const Base& base) { return base.x; }, motion_.wind_x);
   start_place(
-      element.y, law.y, birth.y, [](const Base& base) { return base.y; }, motion_.wind_y);
+      element.y, law.y, noise_y_[idx], birth.y, [](const Base& base) { return base.y; }, motion_.wind_y);
   element.y.constant += motion_.gravity;
   if (samples_looks()) start_looks(element, birth.cable);
 }
@@ -328,7 +351,7 @@ bool CableSynthesizer::Population::survives(Element& element) {
   if (element.life >= 0)
     dies = dies || element.age - element.outside + 1 + kFadeFrames >= element.life;
   else if (is_inside(element))
-    dies = dies || u < deaths_.probability(x, y, element.age - element.outside) * motion_.speed;
+    dies = dies || u < deaths_.probability(x, y, element.age - element.outside) * element.frailty * motion_.speed;
   if (is_inside(element)) element.came_in = true;
   if (dies) element.fading = 0;
   return true;

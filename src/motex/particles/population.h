@@ -48,7 +48,8 @@ class CableSynthesizer::Population {
   void start_looks(Element& element, int cable);
   void back_out(Element& element, int side);
   void choose_looks(Element& element, int cable, int species);
-  const MovetonDynamics& law_of(int species) const;
+  std::size_t law_idx(int species) const;
+  void learn_noise();
   bool samples_looks() const;
   void move(Element& element);
   /// Whether it is still there.
@@ -66,8 +67,9 @@ class CableSynthesizer::Population {
   DeathLaw deaths_;
   std::vector<BirthExample> examples_;
   std::vector<double> burst_rates_;
-  std::vector<MovetonDynamics> laws_;  // one a species, the last for free bases
-  std::vector<int> looks_cables_;      // whose bases may be replayed where the looks are not the cable's own
+  std::vector<MovetonDynamics> laws_;           // one a species, the last for free bases
+  std::vector<NoiseSpread> noise_x_, noise_y_;  // one a law
+  std::vector<int> looks_cables_;               // whose bases may be replayed where the looks are not the cable's own
   std::map<int, Series> series_;
   MotionEdit motion_;
   bool draws_looks_ = true;
