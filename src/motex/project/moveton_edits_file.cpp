@@ -88,8 +88,10 @@ MovetonEdits parse_moveton_edits(std::string_view text, const std::string& name)
     edits.displacements.push_back({entry.whole("track"), entry.number_or("dx", 0), entry.number_or("dy", 0)});
   }
   for (std::size_t k = 0; k < removed.size(); ++k) {
-    if (!removed[k].is_number_integer()) throw InvalidInput(place(name, "remove", k) + ": is no track number");
-    edits.removals.push_back(removed[k].get<std::int64_t>());
+    const double track = removed[k].is_number() ? removed[k].get<double>() : 0.5;
+    if (track != std::floor(track) || std::abs(track) > kLargestWhole)
+      throw InvalidInput(place(name, "remove", k) + ": is no track number");
+    edits.removals.push_back(static_cast<std::int64_t>(track));
   }
   return edits;
 }
