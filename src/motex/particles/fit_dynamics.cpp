@@ -121,7 +121,7 @@ void set_first_step(CoordinateDynamics& dynamics, const std::vector<CoordinateSe
   dynamics.d0 = std::sqrt(std::max(variance, dynamics.d * dynamics.d));
 }
 
-CoordinateDynamics fit_place(std::vector<CoordinateSeries> pieces, double& error, const DynamicsPrior& prior) {
+CoordinateDynamics fit_place(const std::vector<CoordinateSeries>& pieces, double& error, const DynamicsPrior& prior) {
   CoordinateDynamics dynamics;
   double persistence = 0, mean = 0;
   const std::vector<CoordinateSeries> steps = differences(pieces);

@@ -183,6 +183,21 @@ double difference_variance(const std::vector<CoordinateSeries>& series, Measured
   return count > 0 ? sum / count : 0;
 }
 
+/// Of all steps of places, of all levels.
+double plain_mean(const std::vector<CoordinateSeries>& series, MeasuredValue kind) {
+  double sum = 0, count = 0;
+  for (const CoordinateSeries& one : series) {
+    if (kind == MeasuredValue::kPlace) {
+      sum += one.values.back() - one.values.front();
+      count += static_cast<double>(one.values.size()) - 1;
+    } else {
+      for (const double value : one.values) sum += value;
+      count += static_cast<double>(one.values.size());
+    }
+  }
+  return sum / count;
+}
+
 class Objective {
  public:
   Objective(const std::vector<CoordinateSeries>& series, MeasuredValue kind, double error, const DynamicsPrior& prior)
@@ -220,8 +235,9 @@ class Objective {
     out.noise = std::sqrt(model.noise_variance);
     out.spread = std::sqrt(model.spread_variance);
     out.error = std::sqrt(model.error_variance);
-    out.mean = likelihood.mean;
-    out.start_mean = likelihood.mean + likelihood.first_u;
+    // of a steady process the plain mean is as good, and does not depend on the rest of the fit
+    out.mean = likelihood.first_u == 0 ? plain_mean(series_, kind_) : likelihood.mean;
+    out.start_mean = out.mean + likelihood.first_u;
     out.start_deviation = std::sqrt(model.start_variance + model.spread_variance);
     return out;
   }
