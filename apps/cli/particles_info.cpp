@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "motex/project/compression.h"
 #include "motex/project/textured_motion_file.h"
 #include "text_table.h"
 
@@ -92,7 +93,8 @@ struct Info {
   void run(Session& session) {
     const TexturedMotion model = load_textured_motion(model_path);
     const CableCounts counts = count(model);
-    session.result(value(model, counts), text(model, counts));
+    const CompressionSummary sizes = measure_compression(model);
+    session.result(value(model, counts, sizes), text(model, counts, sizes));
   }
 
  private:
@@ -100,7 +102,7 @@ struct Info {
     return static_cast<double>(number) / static_cast<double>(std::max<std::int64_t>(1, model.num_frames));
   }
 
-  Value value(const TexturedMotion& model, const CableCounts& counts) const {
+  Value value(const TexturedMotion& model, const CableCounts& counts, const CompressionSummary& sizes) const {
     Value object;
     object["model"] = model_path;
     object["bytes"] = static_cast<std::int64_t>(std::filesystem::file_size(model_path));
@@ -122,13 +124,18 @@ struct Info {
     object["mean_life_frames"] = counts.mean_life;
     object["births_per_frame"] = model.maps.births_per_frame;
     object["bursts"] = static_cast<std::int64_t>(model.maps.bursts.size());
+    object["raw_bytes"] = sizes.raw_bytes;
+    object["clip_bytes"] = sizes.clip_bytes;
+    object["clip_ratio"] = sizes.clip_ratio();
+    object["model_bytes"] = sizes.model_bytes;
+    object["model_ratio"] = sizes.model_ratio();
     object["templates"] = Value::List();
     for (std::size_t k = 0; k < model.templates.size(); ++k)
       object["templates"].append(template_value(model.templates[k], model.dynamics[k]));
     return object;
   }
 
-  std::string text(const TexturedMotion& model, const CableCounts& counts) const {
+  std::string text(const TexturedMotion& model, const CableCounts& counts, const CompressionSummary& sizes) const {
     std::string out =
         text_pairs({{"model", model_path},
                     {"learned from", model.source + ", " + std::to_string(model.num_frames) + " frames of " +
@@ -145,6 +152,9 @@ struct Info {
                                         fixed(model.flow.peak_ratio, 0) + " × the median)"},
                     {"births", fixed(model.maps.births_per_frame, 2) + " a frame, " +
                                    std::to_string(model.maps.bursts.size()) + " bursts"},
+                    {"compression", "clip " + fixed(sizes.clip_ratio(), 0) + " × (" + std::to_string(sizes.clip_bytes) +
+                                        " bytes), model alone " + fixed(sizes.model_ratio(), 0) + " × (" +
+                                        std::to_string(sizes.model_bytes) + " bytes)"},
                     {"seed", std::to_string(model.seed)}});
     std::vector<std::vector<std::string>> rows{
         {"species", "share %", "scale px", "peak", "poses", "coils", "velocity", "persistence"}};

@@ -66,6 +66,10 @@ void measure(const std::string& name, const ClipFrames& clip) {
               mean_psnr(clip, background, {}));
   show("free bases", clip, background, free, of_pursuit);
 
+  CarryOptions carry;
+  carry.num_bases = kBases;
+  show("bases carried forward", clip, background, carry_bases(clip, background, carry), of_pursuit);
+
   TexturedMotion model;
   model.width = clip.width;
   model.height = clip.height;
