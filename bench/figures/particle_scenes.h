@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -12,13 +14,16 @@
 
 #include "motex/core/files.h"
 #include "motex/particles/bird_painter.h"
+#include "motex/particles/birth_death.h"
 #include "motex/particles/clip_background.h"
 #include "motex/particles/frame_painter.h"
 #include "motex/particles/learn.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/synthesize.h"
 #include "motex/particles/water_synthesis.h"
+#include "motex/project/base_sketch.h"
 #include "motex/project/load_video_clip.h"
+#include "motex/project/particle_pictures.h"
 #include "motex/project/textured_motion_file.h"
 
 /// Clips that the figures of [TM02] are made from, and their learned models.
@@ -30,6 +35,7 @@ struct Scene {
   ClipFrames clip;
   TexturedMotion model;
   int least_path = 5;  ///< frames, of paths that are shown
+  int columns = 3;     ///< pictures in a row
 
   int frame_of_column(int column, int num_columns) const {
     return (2 * column + 1) * clip.num_frames() / (2 * num_columns);
@@ -51,7 +57,9 @@ inline std::filesystem::path find_clip(const std::filesystem::path& data, std::i
 }
 
 /// Learning takes minutes: with MOTEX_FIGURE_MODELS = a folder, models are kept there and taken from there.
-inline void learn(Scene& scene, const LearnTexturedMotionOptions& options = {}) {
+/// MOTEX_FIGURE_ROUNDS: rounds of sampling; default: those of the options.
+inline void learn(Scene& scene, LearnTexturedMotionOptions options = {}) {
+  if (const char* rounds = std::getenv("MOTEX_FIGURE_ROUNDS"); rounds != nullptr) options.rounds = std::atoi(rounds);
   const char* kept = std::getenv("MOTEX_FIGURE_MODELS");
   std::filesystem::path file;
   if (kept != nullptr && *kept != '\0') file = std::filesystem::path(kept) / (scene.what + "_" + scene.name + ".motex");
@@ -86,7 +94,7 @@ inline Scene make_scene(const std::string& what, const std::filesystem::path& pa
 }
 
 inline Scene snow_scene(const std::filesystem::path& data) {
-  Scene scene = make_scene("snow", find_clip(data, {"snow_forest_320x240.mp4"}), 0, 40, [] {
+  Scene scene = make_scene("snow", find_clip(data, {"snow_forest_320x240.mp4"}), 0, 30, [] {
     SimulateSnowOptions options;
     options.frames = 60;
     return simulate_snow(options);
@@ -96,14 +104,22 @@ inline Scene snow_scene(const std::filesystem::path& data) {
 }
 
 inline Scene bird_scene(const std::filesystem::path& data) {
-  Scene scene = make_scene("birds", find_clip(data, {"birds_greenscreen_cg_480x270.mp4"}), 0, 0,
+  Scene scene =
+      make_scene("birds", find_clip(data, {"birds_sky_480x270.mp4"}), 0, 0, [] { return simulate_birds({}); });
+  learn(scene);
+  return scene;
+}
+
+/// Birds near enough for their wings to be seen.
+inline Scene flapping_scene(const std::filesystem::path& data) {
+  Scene scene = make_scene("flapping birds", find_clip(data, {"birds_greenscreen_cg_480x270.mp4"}), 0, 0,
                            [] { return simulate_birds({}); });
   learn(scene);
   return scene;
 }
 
 inline Scene firework_scene(const std::filesystem::path& data) {
-  Scene scene = make_scene("fireworks", find_clip(data, {"fireworks_repeat_480x270.mp4"}), 0, 0,
+  Scene scene = make_scene("fireworks", find_clip(data, {"fireworks_repeat_480x270.mp4"}), 0, 60,
                            [] { return simulate_fireworks({}); });
   learn(scene);
   return scene;
@@ -112,15 +128,23 @@ inline Scene firework_scene(const std::filesystem::path& data) {
 inline bool waterfall_scene(const std::filesystem::path& data, Scene& scene) {
   const std::filesystem::path path = find_clip(data, {"waterfall_kjos_320x240.mp4"});
   if (path.empty()) return false;
-  scene = make_scene("waterfall", path, 0, 60, [] { return SimulatedScene(); });
+  scene = make_scene("waterfall", path, 0, 0, [] { return SimulatedScene(); });
   learn(scene);
+  scene.least_path = 20;
+  if (scene.model.maps.source.values.empty()) {  // water is synthesized without them
+    MapOptions options;
+    options.bandwidth = 8;
+    options.bridge_gaps = options.find_bursts = false;
+    scene.model.maps =
+        estimate_maps(scene.model.cables, scene.model.width, scene.model.height, scene.model.num_frames, options);
+  }
   return true;
 }
 
 /// The same water as separate elements: what drops look like. From half as many frames.
 inline Scene drop_scene(const std::filesystem::path& data) {
   Scene scene =
-      make_scene("drops", find_clip(data, {"waterfall_kjos_320x240.mp4"}), 0, 30, [] { return SimulatedScene(); });
+      make_scene("drops", find_clip(data, {"waterfall_kjos_320x240.mp4"}), 0, 12, [] { return SimulatedScene(); });
   LearnTexturedMotionOptions options;
   options.tracking = TrackingKind::kCores;
   learn(scene, options);
@@ -184,10 +208,11 @@ inline std::vector<Image> cut_outs(const Scene& scene, int species, int state, i
   std::vector<Image> out;
   for (std::int64_t visit = 0; visit < 12 && static_cast<int>(out.size()) < count; ++visit)
     for (const Cable& cable : scene.model.cables) {
-      if (cable.species != species || cable.poses.size() != cable.core.size()) continue;
+      if (cable.species != species) continue;
       std::int64_t seen = 0;
       for (std::size_t t = 0; t < cable.core.size() && static_cast<int>(out.size()) < count; ++t) {
-        if (cable.poses[t] != state || seen++ != 3 * visit) continue;
+        const int here = cable.poses.size() == cable.core.size() ? cable.poses[t] : 0;
+        if (here != state || seen++ != 3 * visit) continue;
         const int left = static_cast<int>(std::lround(cable.core[t].x)) - half;
         const int top = static_cast<int>(std::lround(cable.core[t].y)) - half;
         const auto frame = static_cast<int>(cable.first_frame) + static_cast<int>(t);
@@ -196,6 +221,37 @@ inline std::vector<Image> cut_outs(const Scene& scene, int species, int state, i
       }
     }
   return out;
+}
+
+/// The movetons with most light among those of at least three bases, alone on grey, each as bright as can be, and
+/// their symbols below.
+inline std::vector<PictureRow> drop_pictures(const TexturedMotion& model, int count) {
+  constexpr int kSide = 33, kMagnification = 5;
+  std::vector<std::pair<double, const Cable*>> strongest;
+  for (const Cable& cable : model.cables) {
+    if (cable.coils.size() < 2) continue;
+    const Base& core = cable.core[cable.core.size() / 2];
+    strongest.emplace_back(-std::abs(static_cast<double>(core.coefficients[0])), &cable);
+  }
+  std::stable_sort(strongest.begin(), strongest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<PictureRow> rows{{"as light", {}}, {"as symbols", {}}};
+  for (std::size_t k = 0; k < strongest.size() && static_cast<int>(k) < count; ++k) {
+    const Cable& cable = *strongest[k].second;
+    const std::size_t middle = cable.core.size() / 2;
+    std::vector<Base> bases{cable.core[middle]};
+    for (const std::vector<Base>& coil : cable.coils) bases.push_back(coil[middle]);
+    const double dx = 0.5 * (kSide - 1) - bases[0].x, dy = 0.5 * (kSide - 1) - bases[0].y;
+    for (Base& base : bases) base.x += dx, base.y += dy;
+    Plane light(kSide * kMagnification, kSide * kMagnification);
+    Planes planes{light};
+    BaseRenderer(kMagnification).add(bases, planes);
+    float most = 1e-6F;
+    for (const float value : planes[0].values) most = std::max(most, std::abs(value));
+    for (float& value : planes[0].values) value = 128 + 120 * value / most;
+    rows[0].pictures.push_back(to_image(planes[0]));
+    rows[1].pictures.push_back(render(base_sketch({kSide, kSide, 1, bases}, kMagnification)));
+  }
+  return rows;
 }
 
 }  // namespace motex::bench

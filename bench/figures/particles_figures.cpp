@@ -28,7 +28,6 @@ using motex::MovetonFrame;
 using motex::bench::Scene;
 
 constexpr double kGap = 12;
-constexpr int kColumns = 4;
 
 std::string number(double value, int decimals) {
   char text[32];
@@ -53,6 +52,15 @@ Drawing side_by_side(const std::vector<Panel>& panels) {
   row.width -= kGap;
   row.height += 22;
   return row;
+}
+
+/// Templates, the commonest first.
+Drawing sketches_in_a_row(const motex::TexturedMotion& model) {
+  std::vector<Panel> panels;
+  for (const motex::MovetonTemplate& one : model.templates)
+    if (panels.size() < 6) panels.push_back({"", motex::template_sketch(one, model.num_planes, 130)});
+  if (panels.empty()) throw motex::InvalidInput("the model has no templates");
+  return side_by_side(panels);
 }
 
 class Figures {
@@ -121,7 +129,7 @@ void Figures::snow() {
   if (wants({3})) {
     const motex::TexturedMotion& model = snow_learned().model;
     write(3, "templates of snow flakes, and 120 movetons drawn from them",
-          {motex::templates_picture(model), motex::sampled_movetons_picture(model, 120, 20, 1)});
+          {sketches_in_a_row(model), motex::sampled_movetons_picture(model, 120, 20, 1)});
   }
   if (wants({4})) paths_and_maps(4, snow_learned());
 }
@@ -169,8 +177,8 @@ void Figures::reconstructions(const Scene& snow) const {
   const std::vector<int> counts{100, 800};
   std::vector<motex::PictureRow> rows{{"(a) observed", {}}, {"", {}}, {"", {}}, {"(d) synthesized", {}}};
   std::vector<double> psnr(counts.size());
-  for (int k = 0; k < kColumns; ++k) {
-    const int frame = snow.frame_of_column(k, kColumns);
+  for (int k = 0; k < snow.columns; ++k) {
+    const int frame = snow.frame_of_column(k, snow.columns);
     const motex::Planes observed = motex::frame_planes(snow.clip, frame);
     motex::Planes rest = observed;
     for (std::size_t p = 0; p < rest.size(); ++p)
@@ -179,15 +187,15 @@ void Figures::reconstructions(const Scene& snow) const {
     rows[0].pictures.push_back(motex::to_image(observed));
     for (std::size_t c = 0; c < counts.size(); ++c) {
       const motex::Planes made = motex::reconstruct(maps[c], snow.model.background);
-      psnr[c] +=
-          motex::psnr(motex::to_planes(motex::to_image(made), static_cast<int>(observed.size())), observed) / kColumns;
+      psnr[c] += motex::psnr(motex::to_planes(motex::to_image(made), static_cast<int>(observed.size())), observed) /
+                 snow.columns;
       rows[1 + c].pictures.push_back(motex::to_image(made));
     }
   }
   rows[1].caption = "(b) 100 bases: " + number(psnr[0], 1) + " dB";
   rows[2].caption = "(c) 800 bases: " + number(psnr[1], 1) + " dB";
-  rows[3].pictures = motex::bench::synthesized_pictures(snow, {}, kColumns);
-  write(2, "snow: " + snow.name, {motex::picture_rows(rows, 170)});
+  rows[3].pictures = motex::bench::synthesized_pictures(snow, {}, snow.columns);
+  write(2, "snow: " + snow.name, {motex::picture_rows(rows, 148)});
 }
 
 // ---- Maps, synthesis ----
@@ -210,24 +218,26 @@ void Figures::paths_and_maps(int figure, const Scene& scene) const {
 void Figures::observed_and_synthesized(int figure, const Scene& scene, const motex::SynthesizeParticlesOptions& edits,
                                        const std::string& edited) const {
   std::vector<motex::PictureRow> rows{{"(a) observed", {}}, {"(b) synthesized" + edited, {}}};
-  for (int k = 0; k < kColumns; ++k)
-    rows[0].pictures.push_back(motex::to_image(motex::frame_planes(scene.clip, scene.frame_of_column(k, kColumns))));
-  rows[1].pictures = motex::bench::synthesized_pictures(scene, edits, kColumns);
-  write(figure, scene.what + ": " + scene.name, {motex::picture_rows(rows, 210)});
+  for (int k = 0; k < scene.columns; ++k)
+    rows[0].pictures.push_back(
+        motex::to_image(motex::frame_planes(scene.clip, scene.frame_of_column(k, scene.columns))));
+  rows[1].pictures = motex::bench::synthesized_pictures(scene, edits, scene.columns);
+  write(figure, scene.what + ": " + scene.name, {motex::picture_rows(rows, 840.0 / scene.columns)});
 }
 
 // ---- Birds ----
 
 void Figures::birds() {
-  if (!wants({5, 6, 7, 8, 9})) return;
-  const Scene& scene = birds_learned();
-  if (wants({5})) wing_states(scene);
-  if (wants({6})) birds_in_space(scene);
-  if (wants({7})) observed_and_synthesized(7, scene, {}, "");
-  if (wants({8})) paths_and_maps(8, scene);
+  if (wants({5, 6})) {
+    const Scene flapping = motex::bench::flapping_scene(data_);
+    if (wants({5})) wing_states(flapping);
+    if (wants({6})) birds_in_space(flapping);
+  }
+  if (wants({7})) observed_and_synthesized(7, birds_learned(), {}, "");
+  if (wants({8})) paths_and_maps(8, birds_learned());
   if (wants({9}))
     write(9, "birds: templates, movetons drawn from them, and instances",
-          {motex::movetons_figure(scene.model, &scene.clip, 60, 1)});
+          {motex::movetons_figure(birds_learned().model, &birds_learned().clip, 60, 1)});
 }
 
 /// The template with most states.
@@ -296,8 +306,8 @@ void Figures::waterfall() {
   if (wants({13})) paths_and_maps(13, scene);
   if (!wants({14})) return;
   const Scene drops = motex::bench::drop_scene(data_);
-  write(14, "ten drops of the waterfall, drawn from its templates",
-        {motex::sampled_movetons_picture(drops.model, 10, 10, 1)});
+  write(14, "ten drops of the waterfall: groups of bases, as light and as symbols",
+        {motex::picture_rows(motex::bench::drop_pictures(drops.model, 10), 82)});
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, d
   const auto inside = [&](const Base& core) {
     return core.x >= -0.5 && core.y >= -0.5 && core.x < width - 0.5 && core.y < height - 0.5;
   };
+  const double radius = cables.size() > 300 ? 0.9 : 1.6;
   for (const Cable& cable : cables) {
     if (cable.num_frames() < min_frames) continue;
     Polyline line{{}, with_alpha(kInk, 0.75), 0.9, 0};
@@ -77,25 +78,30 @@ Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, d
     if (line.points.size() < 2) continue;
     const Point birth = line.points.front();
     drawing.add(std::move(line));
-    if (cable.first_frame > 0) drawing.add(Disc{birth, 1.6, kBirth});
+    if (cable.first_frame > 0) drawing.add(Disc{birth, radius, kBirth});
   }
   add_border(drawing);
   return drawing;
 }
 
 Drawing density_picture(const Plane& density, double magnification) {
-  std::vector<float> values;
-  for (const float value : density.values)
-    if (value > 0) values.push_back(value);
-  float high = 1;
+  std::vector<float> values = density.values;
+  float low = 0, high = 1;
+  if (!values.empty()) {
+    low = *std::min_element(values.begin(), values.end());
+    std::erase(values, low);
+  }
   if (!values.empty()) {
     const auto nth = values.begin() + static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), nth, values.end());
     high = *nth;
+  } else {
+    high = low + 1;
   }
   Image image(density.width, density.height);
   for (std::size_t i = 0; i < density.values.size(); ++i) {
-    const double share = std::clamp(static_cast<double>(density.values[i]) / static_cast<double>(high), 0.0, 1.0);
+    const double share =
+        std::clamp(static_cast<double>(density.values[i] - low) / static_cast<double>(high - low), 0.0, 1.0);
     const auto level = static_cast<std::uint8_t>(255.5 - 255 * std::pow(share, 0.7));
     image.pixels[i] = {level, level, level, 255};
   }

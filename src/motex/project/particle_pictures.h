@@ -21,8 +21,8 @@ Drawing base_functions_picture(double cell = 90);
 Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, double magnification = 1,
                       int min_frames = 3);
 
-/// A density as grey, dark = high, as the paper prints source and sink maps: from white at 0 to black at the 99.5 %
-/// quantile of its values that are not 0.
+/// A density as grey, dark = high, as the paper prints source and sink maps: from white at its least value to black at
+/// the 99.5 % quantile of the others.
 Drawing density_picture(const Plane& density, double magnification = 1);
 
 /// A cable in space and time ([TM02] Figure 1c): its core as a thick line through x, y and t, coils winding round it,
