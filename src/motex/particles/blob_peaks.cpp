@@ -11,7 +11,7 @@ namespace motex {
 namespace {
 
 constexpr double kFirstSigma = 0.8;
-constexpr double kScaleOfLevel = 1.25;  // a spot of that many a peaks highest at level a
+constexpr double kScaleOfLevel = 0.78;  // a spot of that many a peaks highest at level a
 
 /// Convolution with a Gaussian along rows, then columns; edge pixels repeated. Buffers are kept between calls.
 class Blur {

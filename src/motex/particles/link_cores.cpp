@@ -11,7 +11,8 @@
 namespace motex {
 namespace {
 
-constexpr double kFirstNoise = 0.3;  // pixels, before anything is learned
+constexpr double kFirstNoise = 0.3;    // pixels, before anything is learned
+constexpr double kSharedByMost = 0.5;  // share that moves with the flow: a start, however dense the scene
 constexpr std::size_t kSampleSights = 2000;
 
 using SightFrames = std::vector<std::vector<Sight>>;
@@ -87,7 +88,7 @@ Base between(const Base& a, const Base& b, double share) {
 /// A first guess of how the elements of these frames move and look.
 ElementModel first_element_model(const SightFrames& frames, const FlowEstimate& flow, int width, int height) {
   ElementModel model;
-  if (flow.is_trusted) {
+  if (flow.is_trusted || flow.share > kSharedByMost) {
     model.x.mean_velocity = flow.flow.vx;
     model.y.mean_velocity = flow.flow.vy;
     model.x.start_variance = std::max(0.25, flow.spread_x * flow.spread_x);

@@ -31,6 +31,7 @@ class DisplacementHistogram {
     const auto by_y = [](const Base& a, const Base& b) { return a.y < b.y; };
     std::sort(to.begin(), to.end(), by_y);
     const double reach = half_ * kBin;
+    num_from_ += static_cast<double>(from.size());
     for (const Base& a : from) {
       const auto first =
           std::lower_bound(to.begin(), to.end(), a.y - reach, [](const Base& base, double y) { return base.y < y; });
@@ -99,6 +100,7 @@ class DisplacementHistogram {
           syy += weight * dy * dy;
         }
       if (sum <= 0) break;
+      out.share = num_from_ > 0 ? sum / num_from_ : 0;
       const double mx = sx / sum, my = sy / sum, blur = kBlurBins * kBlurBins;
       out.spread_x = kBin * std::sqrt(std::max(0.25, sxx / sum - mx * mx - blur));
       out.spread_y = kBin * std::sqrt(std::max(0.25, syy / sum - my * my - blur));
@@ -111,6 +113,7 @@ class DisplacementHistogram {
   }
 
   int half_;
+  double num_from_ = 0;
   std::vector<double> counts_;
 };
 

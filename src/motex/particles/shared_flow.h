@@ -16,6 +16,7 @@ struct FlowEstimate {
   SharedFlow flow;
   double spread_x = 0, spread_y = 0;  ///< deviation of the velocities of elements around it, pixels a frame
   bool is_trusted = false;            ///< peak_ratio ≥ kTrustedPeakRatio
+  double share = 0;                   ///< of the detections that have one of the next frame there, beyond chance
 };
 
 /// Velocity shared by the elements: the peak of the histogram of displacements from every detection of a frame to every
