@@ -225,6 +225,16 @@ void measure_simulated() {
           model_of_tracks(tracks_of_scene(scene), scene.width, scene.height));
     }
   }
+  for (const std::uint64_t seed : {1U, 2U}) {
+    SimulateBirdsOptions birds;
+    birds.seed = seed;
+    const SimulatedScene flight = simulate_birds(birds);
+    measure("simulated birds, seed " + std::to_string(seed), model_of_tracks(tracks_of_scene(flight), 320, 240));
+    SimulateFireworksOptions fireworks;
+    fireworks.seed = seed;
+    const SimulatedScene sparks = simulate_fireworks(fireworks);
+    measure("simulated fireworks, seed " + std::to_string(seed), model_of_tracks(tracks_of_scene(sparks), 320, 240));
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -35,26 +36,15 @@ void Arrivals::at(std::int64_t frame, const std::function<void(std::int64_t, Rng
   }
 }
 
-WeightedDeck::WeightedDeck(std::vector<double> weights, const Rng& rng) : cumulative_(std::move(weights)), rng_(rng) {
+WeightedDeck::WeightedDeck(std::vector<double> weights, const Rng& rng)
+    : cumulative_(std::move(weights)), offset_(Rng(rng).uniform()) {
   std::partial_sum(cumulative_.begin(), cumulative_.end(), cumulative_.begin());
   if (!cumulative_.empty() && !(cumulative_.back() > 0)) cumulative_.clear();
-  order_.resize(cumulative_.size());
 }
 
-std::size_t WeightedDeck::draw(std::int64_t n) {
-  const auto num = static_cast<std::int64_t>(cumulative_.size());
-  const std::int64_t round = floor_divided(n, num);
-  if (!has_round_ || round != round_) {
-    has_round_ = true;
-    round_ = round;
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    Rng rng = rng_.fork(static_cast<std::uint64_t>(round));
-    for (std::size_t k = order_.size(); k > 1; --k) std::swap(order_[k - 1], order_[rng.below(k)]);
-  }
-  const auto place = static_cast<std::size_t>(n - round * num);
-  Rng rng = rng_.fork(static_cast<std::uint64_t>(n)).fork(1);
-  const double wanted =
-      (static_cast<double>(order_[place]) + rng.uniform()) / static_cast<double>(num) * cumulative_.back();
+std::size_t WeightedDeck::draw(std::int64_t n) const {
+  const double place = offset_ + static_cast<double>(n) * (std::numbers::phi - 1);
+  const double wanted = (place - std::floor(place)) * cumulative_.back();
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), wanted);
   return static_cast<std::size_t>(std::min(found, cumulative_.end() - 1) - cumulative_.begin());
 }

@@ -28,20 +28,19 @@ class Arrivals {
   Rng rng_;
 };
 
-/// Draws from weighted items so that every round of as many draws as items takes each about as often as its weight
-/// says: stratified, in random order. draw(n) is the n-th draw, whatever was drawn before.
+/// Draws from weighted items so that any few draws in a row take items about as often as their weights say, and from
+/// everywhere in the order in which they are given: draw(n) is the item at the share frac(offset + n (√5 − 1)/2) of the
+/// weights (Kronecker's sequence).
 class WeightedDeck {
  public:
+  /// offset: from the generator.
   WeightedDeck(std::vector<double> weights, const Rng& rng);
   bool empty() const { return cumulative_.empty(); }
-  std::size_t draw(std::int64_t n);
+  std::size_t draw(std::int64_t n) const;
 
  private:
   std::vector<double> cumulative_;
-  Rng rng_;
-  std::int64_t round_ = -1;
-  bool has_round_ = false;
-  std::vector<std::size_t> order_;  // of the strata in this round
+  double offset_;
 };
 
 }  // namespace motex

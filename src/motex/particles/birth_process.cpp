@@ -82,6 +82,10 @@ BirthProcess::BirthProcess(const TexturedMotion& model, const std::vector<CableF
       burst_deck_({}, rng) {
   for (const BirthExample& example : examples) items_.push_back({example, false});
   if (source_.empty() && (settings.wind_x != 0 || settings.wind_y != 0)) add_wind(settings);
+  // so that any few births in a row go in all directions
+  std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) {
+    return std::atan2(a.example.vy, a.example.vx) < std::atan2(b.example.vy, b.example.vx);
+  });
   births_per_frame_ = total_of(items_) * settings.rate * settings.singles * settings.speed;
   bursts_per_frame_ = std::accumulate(burst_rates.begin(), burst_rates.end(), 0.0) * settings.rate;
   singles_ = Arrivals(births_per_frame_, settings.period, rng.fork(0));
