@@ -152,6 +152,53 @@ TEST(BirthDeathMaps, SnowIsBornUpwindAndDiesDownwind) {
   EXPECT_NEAR(maps.births_per_frame, 40.0 * (3 * 160 + 2 * 120) / (160 * 120), 0.35);
 }
 
+/// Of two that come near, the later one is not seen while they are.
+std::vector<Cable> crossing(const std::vector<Cable>& cables, double near, double width, double height) {
+  std::vector<Cable> out;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    Cable piece;
+    for (std::int64_t t = cables[i].first_frame; t < cables[i].end_frame(); ++t) {
+      const Base& base = cables[i].at(t);
+      bool hidden = false;
+      for (std::size_t j = 0; j < i && !hidden; ++j)
+        hidden = cables[j].covers(t) && std::hypot(cables[j].at(t).x - base.x, cables[j].at(t).y - base.y) < near;
+      const bool at_border = base.x < 8 || base.y < 8 || base.x > width - 8 || base.y > height - 8;
+      if (hidden && !at_border) {
+        if (!piece.core.empty()) out.push_back(piece);
+        piece = {};
+        continue;
+      }
+      if (piece.core.empty()) piece.first_frame = t;
+      piece.core.push_back(base);
+    }
+    if (!piece.core.empty()) out.push_back(piece);
+  }
+  return out;
+}
+
+TEST(BirthDeathMaps, ElementsThatCoverOneAnotherDoNotRaiseTheRate) {
+  SimulateSnowOptions options = small_snow();
+  options.elements = 80;
+  const std::vector<Cable> whole = true_cables(simulate_snow(options)), seen = crossing(whole, 4, 160, 120);
+  MapOptions plain;
+  plain.bridge_gaps = false;
+  const double truth = estimate_maps(whole, 160, 120, 60, plain).births_per_frame;
+  EXPECT_GT(estimate_maps(seen, 160, 120, 60, plain).births_per_frame, 1.2 * truth);
+  EXPECT_NEAR(estimate_maps(seen, 160, 120, 60).births_per_frame, truth, 0.07 * truth);
+}
+
+TEST(BirthDeathMaps, TrueBirthsInsideAreKept) {
+  Rng rng(12);
+  std::vector<Cable> cables;  // appear anywhere, live 20 frames, 30 at a time
+  for (int i = 0; i < 300; ++i)
+    cables.push_back(straight_cable(static_cast<std::int64_t>(rng.below(200)), 20, rng.uniform(10, 150),
+                                    rng.uniform(10, 110), rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3)));
+  MapOptions plain;
+  plain.bridge_gaps = false;
+  const double truth = estimate_maps(cables, 160, 120, 220, plain).births_per_frame;
+  EXPECT_NEAR(estimate_maps(cables, 160, 120, 220).births_per_frame, truth, 0.08 * truth);
+}
+
 TEST(BirthDeathMaps, BrokenTracksDoNotRaiseTheRate) {
   const SimulatedScene scene = simulate_snow(small_snow());
   const std::vector<Cable> whole = true_cables(scene), cut = broken(whole, 0.5, 3);

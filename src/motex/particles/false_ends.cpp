@@ -86,18 +86,26 @@ class FalseEnds {
  private:
   const Cable& cable_of(const CableEnd& end) const { return cables_[static_cast<std::size_t>(end.cable)]; }
 
-  /// Nearest meetings first, each end once.
+  /// Nearest meetings first, each end once; as many as are more than chance makes.
   void mark_gaps() {
-    std::vector<Meeting> found = meetings();
+    double by_chance = 0;
+    std::vector<Meeting> found = meetings(by_chance);
     std::stable_sort(found.begin(), found.end(),
                      [](const Meeting& a, const Meeting& b) { return a.distance < b.distance; });
+    std::vector<char> death_taken(maps_.deaths.size()), birth_taken(maps_.births.size());
+    std::vector<Meeting> pairs;
     for (const Meeting& meeting : found) {
-      if (false_deaths_[meeting.death] != 0 || false_births_[meeting.birth] != 0) continue;
-      false_deaths_[meeting.death] = false_births_[meeting.birth] = 1;
+      if (death_taken[meeting.death] != 0 || birth_taken[meeting.birth] != 0) continue;
+      death_taken[meeting.death] = birth_taken[meeting.birth] = 1;
+      pairs.push_back(meeting);
     }
+    const double excess = static_cast<double>(pairs.size()) - by_chance;
+    for (std::size_t k = 0; k < pairs.size() && static_cast<double>(k) + 0.5 < excess; ++k)
+      false_deaths_[pairs[k].death] = false_births_[pairs[k].birth] = 1;
   }
 
-  std::vector<Meeting> meetings() const {
+  /// by_chance: how many there would be if deaths and births knew nothing of one another.
+  std::vector<Meeting> meetings(double& by_chance) const {
     std::vector<std::vector<std::size_t>> births_in(static_cast<std::size_t>(num_frames_));
     for (std::size_t b = 0; b < maps_.births.size(); ++b)
       births_in[static_cast<std::size_t>(maps_.births[b].frame)].push_back(b);
@@ -110,6 +118,7 @@ class FalseEnds {
         const double x = death.x + death.vx * frames, y = death.y + death.vy * frames, radius = 2 + frames;
         if (!inside(x, y, maps_)) break;
         if (births_.expected(x, y, radius, kLongestGap) > kImprobable) continue;
+        by_chance += births_.expected(x, y, radius, 1);
         for (const std::size_t b : births_in[static_cast<std::size_t>(death.frame + gap)]) {
           const CableEnd& birth = maps_.births[b];
           const double distance = std::hypot(birth.x - x, birth.y - y);

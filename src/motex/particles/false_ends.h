@@ -13,8 +13,8 @@ namespace motex {
 /// that one here and now is improbable, so that sources and sinks are not touched:
 /// gaps     a death whose cable, carried on, meets a birth within five frames
 /// flashes  cables shorter than three frames
-/// crowds   ends beside another element: two that covered one another were seen as one. As many of them, nearest first,
-///          as are more than chance puts beside others.
+/// crowds   ends beside another element: two that covered one another were seen as one
+/// Of gaps and crowds as many, nearest first, as are more than chance makes.
 void drop_false_ends(std::span<const Cable> cables, std::int64_t num_frames, BirthDeathMaps& maps);
 
 }  // namespace motex
