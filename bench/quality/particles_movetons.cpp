@@ -17,6 +17,7 @@
 #include "motex/core/files.h"
 #include "motex/particles/background.h"
 #include "motex/particles/coils.h"
+#include "motex/particles/pursuit.h"
 #include "motex/particles/refine.h"
 #include "motex/particles/regroup.h"
 #include "motex/particles/templates.h"
@@ -145,6 +146,33 @@ void compare_poses(const std::vector<Cable>& cables, const MovetonTemplate& foun
               100 * most / std::max(1.0, num), worst, transitions);
 }
 
+/// The middle frame by movetons and by matching pursuit that knows of no movetons, luma.
+void compare_pursuit(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables) {
+  const int frame = clip.num_frames() / 2;
+  const Plane& seen = clip.luma[static_cast<std::size_t>(frame)];
+  const Plane grey = luma(background);
+  BaseMap map{clip.width, clip.height, 1, {}};
+  for (const Cable& cable : cables) {
+    if (!cable.covers(frame)) continue;
+    const auto at = static_cast<std::size_t>(frame - cable.first_frame);
+    std::vector<Base> bases{cable.core[at]};
+    for (const std::vector<Base>& coil : cable.coils) bases.push_back(coil[at]);
+    for (Base& base : bases) {
+      base.coefficients = {static_cast<float>(luma_coefficient(base, clip.num_planes())), 0, 0};
+      if (base.coefficients[0] != 0) map.bases.push_back(base);
+    }
+  }
+  Plane target = seen;
+  for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] -= grey.values[i];
+  std::printf("    frame %d: background %.2f dB, %zu bases of movetons %.2f dB; free pursuit", frame, psnr(grey, seen),
+              map.bases.size(), psnr(reconstruct(map, {grey})[0], seen));
+  std::vector<int> counts{static_cast<int>(map.bases.size()), 300};
+  std::sort(counts.begin(), counts.end());
+  for (const BaseMap& one : pursue_stages({target}, counts, {}))
+    std::printf(" %zu bases %.2f dB", one.bases.size(), psnr(reconstruct(one, {grey})[0], seen));
+  std::puts("");
+}
+
 void measure(const std::filesystem::path& video, const std::filesystem::path& truth) {
   const ClipFrames clip = load_video_clip(video);
   Planes background;
@@ -191,6 +219,7 @@ void measure(const std::filesystem::path& video, const std::filesystem::path& tr
     std::printf(" coils;");
   }
   std::puts("");
+  compare_pursuit(clip, background, cables);
   if (!templates.empty() && !text.empty()) compare_poses(cables, templates[0], ids, text);
 }
 

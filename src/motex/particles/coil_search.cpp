@@ -137,7 +137,11 @@ CoilWindow cut_window(const Plane& residual, const Base& core, const std::vector
   out.residual = Plane(right - out.left, bottom - out.top);
   for (int y = 0; y < out.residual.height; ++y)
     std::copy_n(residual.row(out.top + y) + out.left, out.residual.width, out.residual.row(y));
-  for (const Base& other : others) give_to_nearer(out, core, other);
+  for (const Base& other : others) {
+    // farther than that from the window's corner it owns nothing there
+    const double limit = 1.5 * half * (1 + other.scale / core.scale);
+    if (std::hypot(core.x - other.x, core.y - other.y) < limit) give_to_nearer(out, core, other);
+  }
   return out;
 }
 

@@ -14,7 +14,8 @@
 namespace motex {
 namespace {
 
-constexpr double kJump = 1.4;  // a new place must have so much more energy than the carried coil
+constexpr double kMostReach = 2.5;  // times the reach, where coils lead outwards
+constexpr double kJump = 1.4;       // a new place must have so much more energy than the carried coil
 
 class CoilGrower {
  public:
@@ -57,6 +58,20 @@ class CoilGrower {
     return any;
   }
 
+  /// Core scales: the reach, or farther where the coils there are lead outwards (a large wing on a small core).
+  double reach_of_cable(const Cable& cable) const {
+    double sum = 0, weight = 0;
+    for (const std::vector<Base>& coil : cable.coils)
+      for (std::size_t at = 0; at < coil.size(); ++at) {
+        const Base &base = coil[at], &core = cable.core[at];
+        const double energy = std::pow(static_cast<double>(base.coefficients[0]), 2);
+        sum += energy * (std::hypot(base.x - core.x, base.y - core.y) + 2 * base.scale) / core.scale;
+        weight += energy;
+      }
+    const double extent = weight > 0 ? sum / weight : 0;
+    return std::clamp(1.2 * extent, options_.reach, kMostReach * options_.reach);
+  }
+
   /// The next coil of a cable in all its frames; none when it is not worth it.
   std::vector<CoilFit> coil_along(std::size_t idx) const {
     const Cable& cable = cables_[idx];
@@ -64,7 +79,7 @@ class CoilGrower {
     std::vector<CoilWindow> windows(num);
     std::vector<CoilFit> fresh(num);
     double enough = 0;
-    const double weakest = options_.min_contrast * noise_;
+    const double weakest = options_.min_contrast * noise_, reach = reach_of_cable(cable);
     for (std::size_t at = 0; at < num; ++at) {
       const std::int64_t frame = cable.first_frame + static_cast<std::int64_t>(at);
       if (frame < 0 || frame >= light_.num_frames()) continue;
@@ -72,9 +87,8 @@ class CoilGrower {
       const double least =
           std::max(weakest, std::sqrt(options_.min_share) * std::abs(static_cast<double>(core.coefficients[0])));
       enough += least * least;
-      windows[at] =
-          cut_window(light_.left(static_cast<std::size_t>(frame)), core, light_.neighbours(idx, at), options_.reach);
-      fresh[at] = find_coil(windows[at], core, options_.reach, least);
+      windows[at] = cut_window(light_.left(static_cast<std::size_t>(frame)), core, light_.neighbours(idx, at), reach);
+      fresh[at] = find_coil(windows[at], core, reach, least);
     }
     const auto strongest = static_cast<std::size_t>(
         std::max_element(fresh.begin(), fresh.end(),
@@ -82,16 +96,17 @@ class CoilGrower {
         fresh.begin());
     if (num == 0 || fresh[strongest].energy() == 0) return {};
     std::vector<CoilFit> out = fresh;
-    for (std::size_t at = strongest + 1; at < num; ++at) out[at] = carried(cable, windows[at], out, fresh, at, at - 1);
-    for (std::size_t at = strongest; at-- > 0;) out[at] = carried(cable, windows[at], out, fresh, at, at + 1);
+    for (std::size_t at = strongest + 1; at < num; ++at)
+      out[at] = carried(cable, windows[at], out, fresh, at, at - 1, reach);
+    for (std::size_t at = strongest; at-- > 0;) out[at] = carried(cable, windows[at], out, fresh, at, at + 1, reach);
     double energy = 0;
     for (const CoilFit& fit : out) energy += fit.energy();
     return energy < enough ? std::vector<CoilFit>() : out;
   }
 
   CoilFit carried(const Cable& cable, const CoilWindow& window, const std::vector<CoilFit>& coil,
-                  const std::vector<CoilFit>& fresh, std::size_t at, std::size_t from) const {
-    CoilFit along = carry_coil(window, cable.core[at], coil[from], cable.core[from], options_.reach);
+                  const std::vector<CoilFit>& fresh, std::size_t at, std::size_t from, double reach) const {
+    CoilFit along = carry_coil(window, cable.core[at], coil[from], cable.core[from], reach);
     return fresh[at].energy() > kJump * along.energy() + 4 * noise_ * noise_ ? fresh[at] : along;
   }
 
@@ -163,7 +178,7 @@ GrowCoilsReport grow_coils(const ClipFrames& clip, const Planes& background, con
                            std::vector<Cable>& cables, const GrowCoilsOptions& options, const JobContext& job) {
   check_options(options);
   for (Cable& cable : cables) cable.coils.clear();
-  MovetonLight light(clip, background, residuals, cables, options.reach, job);
+  MovetonLight light(clip, background, residuals, cables, kMostReach * options.reach, job);
   GrowCoilsReport report;
   report.background_psnr = light.background_psnr();
   light.fit_luma();

@@ -25,7 +25,8 @@ struct GrowCoilsOptions {
           Range{0, 1});
     visit(Field{"min_contrast", "", "a coil's coefficient is at least this many deviations of the noise"},
           self.min_contrast, Range{0, 100});
-    visit(Field{"reach", "core scales", "coils lie this near their core"}, self.reach, Range{0.5, 6});
+    visit(Field{"reach", "core scales", "coils lie this near their core, farther only where other coils lead there"},
+          self.reach, Range{0.5, 6});
   }
 };
 

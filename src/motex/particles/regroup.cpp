@@ -19,11 +19,13 @@ namespace {
 
 constexpr double kCoreScale = 4;  // pixels, of the mean picture
 constexpr int kMeanSide = 48;
+constexpr double kMeanReach = 5;  // core scales
 constexpr std::size_t kMostMovetons = 300;
 constexpr int kFitSteps = 3;
 constexpr double kLeash = 1;         // of the coil's scale
 constexpr double kMostGrowth = 1.8;  // of the coil's scale
 constexpr double kIsolation = 1.5;
+constexpr double kMostReach = 2.5;  // times the reach, of coils that lead outwards
 
 double luma_of(const RelativeBase& base, int num_planes) {
   if (num_planes < 3) return base.coefficient[0];
@@ -118,6 +120,16 @@ void place_coils(Cable& cable, const Shapes& shapes, int num_planes) {
   }
 }
 
+/// Core scales to the rim of the outermost coil.
+double extent_of(const Cable& cable) {
+  double extent = 0;
+  for (const std::vector<Base>& coil : cable.coils)
+    for (std::size_t at = 0; at < coil.size(); ++at)
+      extent = std::max(
+          extent, std::hypot(coil[at].x - cable.core[at].x, coil[at].y - cable.core[at].y) / cable.core[at].scale);
+  return extent;
+}
+
 /// A coil in what others leave, near where the shape has it.
 void fit_on_leash(CoilWindow& window, const Base& start, Base& coil) {
   Base local = coil;
@@ -160,7 +172,7 @@ std::vector<RelativeBase> coils_of_mean(const std::vector<std::vector<RelativeBa
   std::vector<Base> bases;
   while (static_cast<int>(bases.size()) < options.max_coils) {
     const CoilWindow window{0, 0, left_of(mean, bases)};
-    const CoilFit found = find_coil(window, core, options.reach, std::sqrt(options.min_share));
+    const CoilFit found = find_coil(window, core, kMeanReach, std::sqrt(options.min_share));
     if (found.energy() < options.min_share) break;
     bases.push_back(found.base);
     bases.back().coefficients = {found.coefficient, 0, 0};
@@ -188,7 +200,7 @@ GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, 
     place_coils(cables[c], shapes, clip.num_planes());
     starts[c] = cables[c].coils;
   }
-  MovetonLight light(clip, background, residuals, cables, options.reach, job);
+  MovetonLight light(clip, background, residuals, cables, kMostReach * options.reach, job);
   GrowCoilsReport report;
   report.background_psnr = light.background_psnr();
   light.fit_luma();
@@ -198,11 +210,12 @@ GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, 
       job.check_cancelled();
       const auto idx = static_cast<std::size_t>(c);
       Cable& cable = cables[idx];
+      const double reach = std::clamp(1.2 * extent_of(cable), options.reach, kMostReach * options.reach);
       for (std::size_t at = 0; at < cable.core.size() && regrouped[idx] != 0; ++at) {
         const std::int64_t frame = cable.first_frame + static_cast<std::int64_t>(at);
         if (frame < 0 || frame >= clip.num_frames()) continue;
-        CoilWindow window = cut_window(light.left(static_cast<std::size_t>(frame)), cable.core[at],
-                                       light.neighbours(idx, at), options.reach);
+        CoilWindow window =
+            cut_window(light.left(static_cast<std::size_t>(frame)), cable.core[at], light.neighbours(idx, at), reach);
         for (std::size_t j = 0; j < cable.coils.size(); ++j)
           if (cable.coils[j][at].coefficients[0] != 0) fit_on_leash(window, starts[idx][j][at], cable.coils[j][at]);
       }

@@ -18,13 +18,21 @@ double drawn(const Spread& spread, Rng& rng) {
   return spread.mean + spread.deviation * std::clamp(rng.normal(), -kMostDeviations, kMostDeviations);
 }
 
-/// One deviation for all colours: they vary together.
+/// A factor of a mean: neither the sign changes nor does it vanish or explode.
+double drawn_factor(const Spread& spread, Rng& rng) {
+  const double deviation = spread.mean != 0 ? spread.deviation / std::abs(spread.mean) : 0;
+  return std::clamp(1 + deviation * rng.normal(), 0.25, 2.0);
+}
+
+/// One factor for all colours: they vary together.
 RelativeBase drawn(const TemplateCoil& coil, Rng& rng) {
   RelativeBase out{
       coil.kind, drawn(coil.u, rng), drawn(coil.v, rng), drawn(coil.log_scale, rng), drawn(coil.angle, rng), {}};
-  const double amount = std::clamp(rng.normal(), -kMostDeviations, kMostDeviations);
-  for (std::size_t k = 0; k < 3; ++k)
-    out.coefficient[k] = coil.coefficient[k].mean + coil.coefficient[k].deviation * amount;
+  Spread strongest;
+  for (const Spread& spread : coil.coefficient)
+    if (std::abs(spread.mean) > std::abs(strongest.mean)) strongest = spread;
+  const double factor = drawn_factor(strongest, rng);
+  for (std::size_t k = 0; k < 3; ++k) out.coefficient[k] = coil.coefficient[k].mean * factor;
   return out;
 }
 
@@ -89,8 +97,7 @@ std::vector<Base> sample_moveton(const MovetonTemplate& moveton_template, int nu
   const SampledMoveton moveton(moveton_template, num_planes, rng);
   Base core{moveton.core_kind(), x, y, std::exp(drawn(moveton_template.log_scale, rng)), 0, {}};
   if (is_oriented(core.kind)) core.angle = drawn(moveton_template.angle, rng);
-  double amplitude = drawn(moveton_template.amplitude, rng);
-  if (amplitude * moveton_template.amplitude.mean <= 0) amplitude = moveton_template.amplitude.mean;
+  const double amplitude = moveton_template.amplitude.mean * drawn_factor(moveton_template.amplitude, rng);
   moveton.colour_core(core, coefficient_of_peak(core, amplitude));
   std::vector<Base> out{core};
   moveton.append_coils(core, out);
