@@ -51,15 +51,15 @@ struct Scene {
 inline std::filesystem::path find_clip(const std::filesystem::path& data, std::initializer_list<const char*> names) {
   if (!data.empty())
     for (const char* name : names)
-      for (const auto& path : {data / "textured" / name, data / name})
+      for (const auto& path : {data / "video/textured" / name, data / "textured" / name, data / name})
         if (std::filesystem::is_regular_file(path)) return path;
   return {};
 }
 
 /// Learning takes minutes: with MOTEX_FIGURE_MODELS = a folder, models are kept there and taken from there.
-/// MOTEX_FIGURE_ROUNDS: rounds of sampling; default: those of the options.
+/// Cables as linked: rounds of sampling take minutes more, and make no difference that a picture of this size shows.
 inline void learn(Scene& scene, LearnTexturedMotionOptions options = {}) {
-  if (const char* rounds = std::getenv("MOTEX_FIGURE_ROUNDS"); rounds != nullptr) options.rounds = std::atoi(rounds);
+  options.rounds = 0;
   const char* kept = std::getenv("MOTEX_FIGURE_MODELS");
   std::filesystem::path file;
   if (kept != nullptr && *kept != '\0') file = std::filesystem::path(kept) / (scene.what + "_" + scene.name + ".motex");
@@ -173,21 +173,25 @@ inline std::vector<Image> synthesized_pictures(const Scene& scene, const Synthes
   return pictures;
 }
 
-/// The background with `magnification` pixels to one.
-inline Planes enlarged(const Planes& planes, int magnification) {
-  Planes out;
-  for (const Plane& plane : planes) {
-    Plane& large = out.emplace_back(plane.width * magnification, plane.height * magnification);
-    for (int y = 0; y < large.height; ++y)
-      for (int x = 0; x < large.width; ++x) large.at(x, y) = plane.at(x / magnification, y / magnification);
+/// Pale blue above, paler below.
+inline Planes sky(int width, int height) {
+  Planes planes(3, Plane(width, height));
+  for (int y = 0; y < height; ++y) {
+    const float down = static_cast<float>(y) / static_cast<float>(height);
+    for (int x = 0; x < width; ++x) {
+      planes[0].at(x, y) = 150 + 70 * down;
+      planes[1].at(x, y) = 180 + 50 * down;
+      planes[2].at(x, y) = 215 + 25 * down;
+    }
   }
-  return out;
+  return planes;
 }
 
-/// Synthesized birds as 3-D birds.
+/// Synthesized birds as 3-D birds, before another sky.
 inline std::vector<Image> pictures_in_space(const Scene& scene, int count, int magnification) {
   CableSynthesizer source(scene.model, {});
-  BirdPainter painter(scene.model, enlarged(scene.model.background, magnification), magnification);
+  BirdPainter painter(scene.model, sky(scene.model.width * magnification, scene.model.height * magnification),
+                      magnification);
   std::vector<Image> pictures;
   MovetonFrame frame;
   Image picture, layer;
@@ -198,26 +202,37 @@ inline std::vector<Image> pictures_in_space(const Scene& scene, int count, int m
   return pictures;
 }
 
-/// Squares about elements of a species in a state, cut out of the clip: one a cable in turn, spread over its life.
+/// Whether no other cable's core lies in the square.
+inline bool stands_alone(const TexturedMotion& model, const Cable& cable, std::int64_t frame, double half) {
+  const Base& core = cable.at(frame);
+  return std::none_of(model.cables.begin(), model.cables.end(), [&](const Cable& other) {
+    return &other != &cable && other.covers(frame) && std::abs(other.at(frame).x - core.x) < half &&
+           std::abs(other.at(frame).y - core.y) < half;
+  });
+}
+
+/// Squares of `reach` core scales to each side about elements of a species in a state, cut out of the clip: one a cable
+/// in turn, spread over its life, standing alone.
 inline std::vector<Image> cut_outs(const Scene& scene, int species, int state, int count) {
-  double scale = 0, num = 0;
-  for (const Cable& cable : scene.model.cables)
-    if (cable.species == species)
-      for (const Base& core : cable.core) scale += core.scale, num += 1;
-  const int half = std::max(6, static_cast<int>(std::lround(5 * scale / std::max(1.0, num))));
+  constexpr double kReach = 4.5;
   std::vector<Image> out;
-  for (std::int64_t visit = 0; visit < 12 && static_cast<int>(out.size()) < count; ++visit)
+  for (std::int64_t visit = 0; visit < 12; ++visit)
     for (const Cable& cable : scene.model.cables) {
-      if (cable.species != species) continue;
+      if (cable.species != species || static_cast<int>(out.size()) == count) continue;
       std::int64_t seen = 0;
-      for (std::size_t t = 0; t < cable.core.size() && static_cast<int>(out.size()) < count; ++t) {
+      for (std::size_t t = 0; t < cable.core.size(); ++t) {
         const int here = cable.poses.size() == cable.core.size() ? cable.poses[t] : 0;
-        if (here != state || seen++ != 3 * visit) continue;
-        const int left = static_cast<int>(std::lround(cable.core[t].x)) - half;
-        const int top = static_cast<int>(std::lround(cable.core[t].y)) - half;
-        const auto frame = static_cast<int>(cable.first_frame) + static_cast<int>(t);
-        if (left < 0 || top < 0 || left + 2 * half >= scene.clip.width || top + 2 * half >= scene.clip.height) continue;
-        out.push_back(crop(to_image(frame_planes(scene.clip, frame)), left, top, 2 * half + 1, 2 * half + 1));
+        const Base& core = cable.core[t];
+        const int half = std::max(6, static_cast<int>(std::lround(kReach * core.scale)));
+        const int left = static_cast<int>(std::lround(core.x)) - half,
+                  top = static_cast<int>(std::lround(core.y)) - half;
+        const std::int64_t frame = cable.first_frame + static_cast<std::int64_t>(t);
+        const bool inside =
+            left >= 0 && top >= 0 && left + 2 * half < scene.clip.width && top + 2 * half < scene.clip.height;
+        if (here != state || !inside || !stands_alone(scene.model, cable, frame, half) || seen++ != 3 * visit) continue;
+        out.push_back(
+            crop(to_image(frame_planes(scene.clip, static_cast<int>(frame))), left, top, 2 * half + 1, 2 * half + 1));
+        break;
       }
     }
   return out;

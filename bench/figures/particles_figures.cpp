@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-// The figures of [TM02], from real clips: particles_figures FOLDER OUT [FIRST …]. FOLDER holds textured/ (or is
+// The figures of [TM02], from real clips: particles_figures FOLDER OUT [FIGURE …]. FOLDER holds textured/ (or is
 // ../shared/data/video); without it scenes are simulated and the waterfall is left out. What is learned, and for how
 // long, is printed.
 #include <cmath>
@@ -222,7 +222,8 @@ void Figures::observed_and_synthesized(int figure, const Scene& scene, const mot
     rows[0].pictures.push_back(
         motex::to_image(motex::frame_planes(scene.clip, scene.frame_of_column(k, scene.columns))));
   rows[1].pictures = motex::bench::synthesized_pictures(scene, edits, scene.columns);
-  write(figure, scene.what + ": " + scene.name, {motex::picture_rows(rows, 840.0 / scene.columns)});
+  write(figure, scene.what + ": " + scene.name,
+        {motex::picture_rows(rows, (scene.model.water ? 740.0 : 840.0) / scene.columns)});
 }
 
 // ---- Birds ----
@@ -272,14 +273,14 @@ void Figures::birds_in_space(const Scene& birds) const {
   std::vector<Panel> panels{
       {"(a) states of the 3-D bird, learned transitions", motex::chain_picture(species->pose_transitions, portraits)}};
   Drawing flight{0, 0, {255, 255, 255, 255}, {}};
-  const std::vector<Image> pictures = motex::bench::pictures_in_space(birds, 2, 2);
+  const std::vector<Image> pictures = motex::bench::pictures_in_space(birds, 2, 3);
   for (const Image& picture : pictures) {
-    const double width = 330, height = width * picture.height / picture.width;
+    const double width = 400, height = width * picture.height / picture.width;
     flight.add(motex::Picture{{0, flight.height}, width, height, picture});
     flight.width = width;
     flight.height += height + 6;
   }
-  panels.push_back({"(b) synthesized paths, flown in space", flight});
+  panels.push_back({"(b) synthesized paths flown in space, before another sky", flight});
   write(6, "3-D birds on learned paths, flapping as sampled", {side_by_side(panels)});
 }
 

@@ -16,6 +16,7 @@ constexpr double kNearest = 0.7;    // wingspans from the camera; nearer birds a
 constexpr double kHazeDepth = 200;  // wingspans at which 1 − 1/e of the contrast is gone
 constexpr double kMostHaze = 0.5;
 constexpr float kAmbient = 0.45F;
+constexpr float kDarkShare = 0.28F;  // light of a dark bird in that of what is behind it
 
 struct Corner {
   float x, y, inverse_depth;  // samples from the box's corner
@@ -173,13 +174,12 @@ BirdPainter::BirdPainter(const TexturedMotion& model, Planes background, double 
     for (const float value : plane.values) sum += static_cast<double>(value);
     none.haze[k] = static_cast<float>(sum / static_cast<double>(plane.values.size()));
   }
+  const float grey = (none.haze[0] + none.haze[1] + none.haze[2]) / 3;
   for (const MovetonTemplate& birds : model.templates) {
     BirdColours colours = none;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double tint = model.num_planes == 3 ? birds.colour[k].mean : 1;
-      // Light of the mesh averages to about 0.75 of its colour.
-      colours.body[k] = static_cast<float>(
-          std::clamp((static_cast<double>(none.haze[k]) + 1.7 * birds.amplitude.mean * tint) / 0.75, 22.0, 255.0));
+      const float pale = 0.5F * (none.haze[k] + grey);
+      colours.body[k] = birds.amplitude.mean < 0 ? kDarkShare * pale : 255 - kDarkShare * (255 - pale);
     }
     colours_.push_back(colours);
   }

@@ -34,8 +34,8 @@ Image bird_portrait(const WingPosture& wings, int side, const BirdColours& colou
 /// Movetons of birds as 3-D birds ([TM02] Figure 6) instead of their bases: BirdFlock, drawn farthest first.
 class BirdPainter : public FramePainter {
  public:
-  /// background: 1 or 3 planes of the magnified size. The colour of each species is that of its darkest (or brightest)
-  /// point on the mean background.
+  /// background: 1 or 3 planes of the magnified size. Species darker than it are dark birds of its tint, brighter ones
+  /// bright: a bird is opaque, and how much light its blurred bases take away says nothing of its colour.
   BirdPainter(const TexturedMotion& model, Planes background, double magnification,
               const BirdFlightOptions& options = {});
   void paint(const MovetonFrame& frame, Image& picture, Image& layer) override;
