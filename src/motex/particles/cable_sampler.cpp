@@ -158,7 +158,8 @@ class Sampler {
   void go_through(int frame, int sweep, CableMoves& moves) const {
     for (const MoveRate& rate : kRates) {
       if (sweep < kSettlingSweeps && !keeps_links(rate.move)) continue;
-      const double num = rate.per_element * elements_per_frame_ + rate.per_cell * state_.num_cells();
+      double num = rate.per_element * elements_per_frame_ + rate.per_cell * state_.num_cells();
+      if (sweep < kSettlingSweeps) num *= 2;
       for (int k = 0; k < static_cast<int>(num + 0.5); ++k) moves.propose(rate.move, frame);
     }
   }

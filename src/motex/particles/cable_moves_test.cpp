@@ -1,0 +1,482 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+// Detailed balance: on a toy of three frames, few places and at most two elements a frame, every state is enumerated;
+// the moves, the same code as on pictures with proposals restricted to those places, must visit states as often as
+// their posterior says.
+#include "motex/particles/cable_moves.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+
+namespace motex {
+namespace {
+
+constexpr int kFrames = 3;
+constexpr double kPlaces[] = {5, 8, 14};  // x; two cells
+constexpr int kNumPlaces = 3;
+
+CoreState place(int idx) { return {kPlaces[idx], 4, std::log(1.5), 60, 0}; }
+
+/// Masses over the places, from the image and the belief, but blunted: so acceptance must make up for it.
+class PlacesProposal : public CoreProposal {
+ public:
+  explicit PlacesProposal(const CablePrior& prior) : prior_(prior) {}
+
+  void look_around(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief) override {
+    weigh(image, kind, belief, [](const CoreState&) { return true; });
+  }
+  bool look_in_cell(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief,
+                    const PictureCell& cell) override {
+    return weigh(image, kind, belief,
+                 [&](const CoreState& z) { return z[kCoreX] >= cell.left && z[kCoreX] < cell.left + cell.width; });
+  }
+  void look_near(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, double, double, double) override {
+    look_around(image, kind, belief);
+  }
+  CoreState best() const override {
+    return place(static_cast<int>(std::max_element(masses_.begin(), masses_.end()) - masses_.begin()));
+  }
+  CoreState draw(Rng& rng) const override { return place(static_cast<int>(rng.weighted(masses_))); }
+  double log_density(const CoreState& state) const override {
+    for (int i = 0; i < kNumPlaces; ++i)
+      if (state[kCoreX] == kPlaces[i]) return std::log(masses_[static_cast<std::size_t>(i)]);
+    return -1e300;
+  }
+  CoreState step(BaseKind, const CoreState& state, Rng& rng) const override {
+    const int move = rng.below(2) == 0 ? -1 : 1;
+    for (int i = 0; i < kNumPlaces; ++i)
+      if (state[kCoreX] == kPlaces[i]) return i + move < 0 || i + move >= kNumPlaces ? state : place(i + move);
+    return state;
+  }
+
+ private:
+  template <typename Allowed>
+  bool weigh(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, Allowed&& allowed) {
+    double total = 0;
+    for (int i = 0; i < kNumPlaces; ++i) {
+      const CoreState z = place(i);
+      const double gain = explained_by(image, kind, z) / (4 * prior_.noise * prior_.noise);
+      const double u = z[kCoreX] - belief.mean[kCoreX];
+      const double mass = allowed(z) ? 0.1 + std::exp(gain - 0.2 * belief.precision[kCoreX] * u * u) : 0;
+      masses_[static_cast<std::size_t>(i)] = mass;
+      total += mass;
+    }
+    for (double& mass : masses_) mass /= std::max(total, 1e-300);
+    return total > 0;
+  }
+
+  const CablePrior& prior_;
+  std::array<double, kNumPlaces> masses_{};
+};
+
+CablePrior toy_prior() {
+  CablePrior prior;
+  prior.width = 24;
+  prior.height = 8;
+  prior.noise = 80;
+  prior.min_coefficient = 1;
+  prior.density_first = 8;
+  prior.births_inside = 5;
+  prior.births_edge = 4;
+  prior.death_inside = 0.35;
+  prior.death_outside = 0.8;
+  prior.log_scale = {std::log(1.5), 0.5};
+  prior.amplitude = {60, 0.5};
+  CoordinateDynamics& x = prior.dynamics.x;
+  x.a = 1.6;
+  x.b = -0.6;
+  x.c = 0.4;
+  x.d = 3;
+  x.c0 = 1;
+  x.d0 = 4;
+  for (CoordinateDynamics* still : {&prior.dynamics.y, &prior.dynamics.log_scale, &prior.dynamics.amplitude}) {
+    still->d = still->d0 = 0.12;
+    still->c = still->c0 = 0;
+  }
+  prior.max_per_frame = 2;
+  return prior;
+}
+
+std::vector<Plane> toy_pictures() {
+  std::vector<Plane> pictures(kFrames, Plane(24, 8));
+  Rng rng(5);
+  for (Plane& picture : pictures)
+    for (float& value : picture.values) value = static_cast<float>(20 * rng.normal());
+  for (int t = 0; t < kFrames; ++t)
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 24; ++x)
+        pictures[static_cast<std::size_t>(t)].at(x, y) +=
+            static_cast<float>(50 * std::exp(-((x - 6 - t) * (x - 6 - t) + (y - 4) * (y - 4)) / 4.5));
+  return pictures;
+}
+
+Cable cable_at(int first, const std::vector<int>& places) {
+  Cable cable;
+  cable.first_frame = first;
+  for (const int i : places) cable.core.push_back(core_base(BaseKind::kGaussian, place(i)));
+  return cable;
+}
+
+std::string name_of_state(const std::vector<Cable>& cables) {
+  std::vector<std::string> parts;
+  for (const Cable& cable : cables) {
+    std::string part = std::to_string(cable.first_frame) + ":";
+    for (const Base& base : cable.core) part += std::to_string(static_cast<int>(std::lround(base.x))) + " ";
+    parts.push_back(part);
+  }
+  std::sort(parts.begin(), parts.end());
+  std::string name;
+  for (const std::string& part : parts) name += part + ";";
+  return name;
+}
+
+/// What states are compared by: how many elements each frame has and how many links there are; and the lengths of the
+/// cables with the places in the middle frame.
+std::array<std::string, 2> classes_of(const std::vector<Cable>& cables) {
+  std::array<int, kFrames> num{}, lengths{};
+  int middle = 0, links = 0;
+  for (const Cable& cable : cables) {
+    for (std::int64_t t = cable.first_frame; t < cable.end_frame(); ++t) ++num[static_cast<std::size_t>(t)];
+    ++lengths[static_cast<std::size_t>(cable.num_frames() - 1)];
+    links += static_cast<int>(cable.num_frames()) - 1;
+    if (cable.covers(1)) middle += static_cast<int>(std::lround(cable.at(1).x));
+  }
+  std::string counts = "counts ", shapes = "lengths ";
+  for (const int n : num) counts += std::to_string(n);
+  counts += " links " + std::to_string(links);
+  for (const int n : lengths) shapes += std::to_string(n);
+  return {counts, shapes + " middle " + std::to_string(middle)};
+}
+
+/// Every state with its probability; the measure of two elements in one place is that of a Poisson process, 1/2!.
+class Enumeration {
+ public:
+  Enumeration(const std::vector<Plane>& pictures, const CableLaw& law) : pictures_(pictures), law_(law) {
+    std::vector<std::vector<int>> frames(kFrames);
+    choose(frames, 0);
+    double total = 0;
+    for (const auto& [name, weight] : weights_) total += weight;
+    for (auto& [name, weight] : weights_) weight /= total;
+    for (const auto& [name, weight] : weights_)
+      for (const std::string& of : class_names_[name]) classes_[of] += weight;
+  }
+  const std::map<std::string, double>& classes() const { return classes_; }
+  /// One of the states, as often as its probability says.
+  const std::vector<Cable>& draw(Rng& rng) const {
+    const double level = rng.uniform() * cumulative_.back();
+    const auto at = std::upper_bound(cumulative_.begin(), cumulative_.end(), level) - cumulative_.begin();
+    return states_[std::min(static_cast<std::size_t>(at), states_.size() - 1)];
+  }
+  std::size_t num_states() const { return weights_.size(); }
+
+ private:
+  void choose(std::vector<std::vector<int>>& frames, int t) {
+    if (t == kFrames) {
+      std::vector<std::vector<int>> links(kFrames - 1);
+      join(frames, links, 0);
+      return;
+    }
+    const auto k = static_cast<std::size_t>(t);
+    frames[k] = {};
+    choose(frames, t + 1);
+    for (int i = 0; i < kNumPlaces; ++i) {
+      frames[k] = {i};
+      choose(frames, t + 1);
+      for (int j = 0; j < kNumPlaces; ++j) {
+        frames[k] = {i, j};
+        choose(frames, t + 1);
+      }
+    }
+  }
+
+  /// All ways to lead elements of frame t to elements of the next, each to at most one.
+  void join(const std::vector<std::vector<int>>& frames, std::vector<std::vector<int>>& links, std::size_t t) {
+    if (t + 1 == kFrames) {
+      add(frames, links);
+      return;
+    }
+    const std::size_t n = frames[t].size(), m = frames[t + 1].size();
+    const auto options = static_cast<int>(m) + 1;
+    for (int a = 0; a < (n > 0 ? options : 1); ++a)
+      for (int b = 0; b < (n > 1 ? options : 1); ++b) {
+        if (n > 1 && a == b && a > 0) continue;
+        links[t].assign({a - 1, b - 1});
+        join(frames, links, t + 1);
+      }
+  }
+
+  void add(const std::vector<std::vector<int>>& frames, const std::vector<std::vector<int>>& links) {
+    std::vector<Cable> cables;
+    double measure = 1;
+    for (int t = 0; t < kFrames; ++t) {
+      const auto& here = frames[static_cast<std::size_t>(t)];
+      if (here.size() == 2) measure /= 2;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        if (t > 0) {
+          const auto& before = frames[static_cast<std::size_t>(t - 1)];
+          bool is_followed = false;
+          for (std::size_t k = 0; k < before.size(); ++k)
+            is_followed |= links[static_cast<std::size_t>(t - 1)][k] == static_cast<int>(i);
+          if (is_followed) continue;
+        }
+        std::vector<int> path;
+        int at = static_cast<int>(i);
+        for (int u = t; u < kFrames && at >= 0; ++u) {
+          path.push_back(frames[static_cast<std::size_t>(u)][static_cast<std::size_t>(at)]);
+          at = u + 1 < kFrames ? links[static_cast<std::size_t>(u)][static_cast<std::size_t>(at)] : -1;
+        }
+        cables.push_back(cable_at(t, path));
+      }
+    }
+    const std::string name = name_of_state(cables);
+    const double log_p = log_posterior(CableState(pictures_, cables, law_), law_);
+    if (weights_.empty()) offset_ = log_p;
+    weights_[name] += measure * std::exp(log_p - offset_);
+    states_.push_back(cables);
+    cumulative_.push_back((cumulative_.empty() ? 0 : cumulative_.back()) + measure * std::exp(log_p - offset_));
+    class_names_[name] = classes_of(cables);
+  }
+
+  const std::vector<Plane>& pictures_;
+  const CableLaw& law_;
+  double offset_ = 0;
+  std::vector<std::vector<Cable>> states_;
+  std::vector<double> cumulative_;
+  std::map<std::string, double> weights_, classes_;
+  std::map<std::string, std::array<std::string, 2>> class_names_;
+};
+
+class CableMovesToy : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    pictures_ = new std::vector<Plane>(toy_pictures());
+    law_ = new CableLaw(toy_prior(), kFrames);
+    truth_ = new Enumeration(*pictures_, *law_);
+  }
+  static void TearDownTestSuite() {
+    delete truth_;
+    delete law_;
+    delete pictures_;
+  }
+
+  /// Total variation between visits and posterior, of both kinds of classes together.
+  static double distance_of(const std::vector<CableMove>& moves) {
+    CableState state(*pictures_, {}, *law_);
+    PlacesProposal proposal(law_->prior());
+    CableMoves chain(state, *law_, proposal, {0, kFrames}, Rng(11));
+    const double start = log_posterior(state, *law_);
+    Rng rng(3);
+    std::map<std::string, double> visits;
+    constexpr int kSteps = 600000;
+    for (int step = 0; step < kSteps; ++step) {
+      chain.propose(moves[rng.below(moves.size())], static_cast<int>(rng.below(kFrames)));
+      if (step % 2 != 0) continue;
+      for (const std::string& of : classes_of(state.cables())) visits[of] += 2.0 / kSteps;
+    }
+    EXPECT_NEAR(chain.log_posterior_change(), log_posterior(state, *law_) - start, 1e-3);
+    double distance = 0;
+    for (const auto& [name, probability] : truth_->classes()) {
+      distance += std::abs(probability - visits[name]);
+      visits.erase(name);
+    }
+    for (const auto& [name, share] : visits) distance += share;
+    return distance / 2;
+  }
+
+  /// How far the flows between states are from being the same in both directions, in deviations: states are drawn from
+  /// the enumerated posterior, the move alone is made a few times, and every step is counted.
+  static double imbalance(CableMove move, std::initializer_list<CableJump> jumps) {
+    PlacesProposal proposal(law_->prior());
+    Rng rng(17);
+    std::map<std::pair<std::string, std::string>, double> flows, class_flows;
+    std::array<std::int64_t, kNumCableJumps> accepted{};
+    constexpr int kRestarts = 120000, kMoves = 2;
+    for (int restart = 0; restart < kRestarts; ++restart) {
+      CableState state(*pictures_, truth_->draw(rng), *law_);
+      CableMoves chain(state, *law_, proposal, {0, kFrames}, rng.fork(static_cast<std::uint64_t>(restart)));
+      double before = chain.log_posterior_change();
+      std::vector<Cable> cables = state.cables();
+      for (int k = 0; k < kMoves; ++k) {
+        chain.propose(move, static_cast<int>(rng.below(kFrames)));
+        if (chain.log_posterior_change() == before) continue;
+        before = chain.log_posterior_change();
+        const std::vector<Cable> next = state.cables();
+        ++flows[{name_of_state(cables), name_of_state(next)}];
+        const auto from = classes_of(cables), to = classes_of(next);
+        ++class_flows[{from[0] + from[1], to[0] + to[1]}];
+        cables = next;
+      }
+      for (std::size_t k = 0; k < accepted.size(); ++k) accepted[k] += chain.counts()[k].accepted;
+    }
+    for (const CableJump jump : jumps) EXPECT_GT(accepted[static_cast<std::size_t>(jump)], 100) << name_of(jump);
+    return std::max(asymmetry(flows), asymmetry(class_flows));
+  }
+
+  /// Σ (there − back)² / (there + back) is chi-square; as normal deviations above its mean.
+  static double asymmetry(const std::map<std::pair<std::string, std::string>, double>& flows) {
+    double square = 0, num = 0;
+    for (const auto& [pair, there] : flows) {
+      const auto found = flows.find({pair.second, pair.first});
+      const double back = found == flows.end() ? 0 : found->second;
+      const bool is_second_visit = pair.second < pair.first && found != flows.end();
+      if (pair.first == pair.second || is_second_visit || there + back < 4) continue;
+      square += (there - back) * (there - back) / (there + back);
+      ++num;
+    }
+    if (num < 3) return 0;
+    return (square - num) / std::sqrt(2 * num);
+  }
+
+  static void expect_balance(CableMove move, std::initializer_list<CableJump> jumps) {
+    const double found = imbalance(move, jumps);
+
+    EXPECT_LT(found, 4.5);
+  }
+
+  static std::vector<Plane>* pictures_;
+  static CableLaw* law_;
+  static Enumeration* truth_;
+};
+std::vector<Plane>* CableMovesToy::pictures_ = nullptr;
+CableLaw* CableMovesToy::law_ = nullptr;
+Enumeration* CableMovesToy::truth_ = nullptr;
+
+TEST_F(CableMovesToy, HasManyStatesOfAllSizes) {
+  EXPECT_GT(truth_->num_states(), 5000u);
+  double empty = 0, full = 0;
+  for (const auto& [name, share] : truth_->classes()) {
+    if (name.starts_with("counts 000")) empty += share;
+    if (name.starts_with("counts 222")) full += share;
+  }
+  EXPECT_GT(empty, 1e-5);
+  EXPECT_GT(full, 1e-3);
+}
+
+/// All moves together, from an empty state, visit states as often as their posterior says.
+TEST_F(CableMovesToy, AllMovesTogetherReachThePosterior) {
+  std::vector<CableMove> moves(10, CableMove::kBirthDeath);
+  for (int k = 0; k < kNumCableMoves; ++k)
+    if (static_cast<CableMove>(k) != CableMove::kLevel) moves.push_back(static_cast<CableMove>(k));
+  EXPECT_LT(distance_of(moves), 0.05);
+}
+TEST_F(CableMovesToy, BirthDeath) { expect_balance(CableMove::kBirthDeath, {CableJump::kBirth, CableJump::kDeath}); }
+TEST_F(CableMovesToy, SplitMerge) { expect_balance(CableMove::kSplitMerge, {CableJump::kSplit, CableJump::kMerge}); }
+TEST_F(CableMovesToy, ExtendShrink) {
+  expect_balance(CableMove::kExtendShrink, {CableJump::kExtend, CableJump::kShrink});
+}
+TEST_F(CableMovesToy, ExtendShrinkBack) {
+  expect_balance(CableMove::kExtendShrinkBack, {CableJump::kExtend, CableJump::kShrink});
+}
+TEST_F(CableMovesToy, Swap) { expect_balance(CableMove::kSwap, {CableJump::kSwap}); }
+TEST_F(CableMovesToy, Exchange) { expect_balance(CableMove::kExchange, {CableJump::kExchange}); }
+TEST_F(CableMovesToy, BridgeCut) { expect_balance(CableMove::kBridge, {CableJump::kBridge, CableJump::kCut}); }
+TEST_F(CableMovesToy, WholeBirthKill) {
+  expect_balance(CableMove::kWhole, {CableJump::kWholeBirth, CableJump::kWholeKill});
+}
+TEST_F(CableMovesToy, Refit) { expect_balance(CableMove::kRefit, {CableJump::kRefit}); }
+TEST_F(CableMovesToy, Block) { expect_balance(CableMove::kBlock, {CableJump::kBlock}); }
+TEST_F(CableMovesToy, Diffuse) { expect_balance(CableMove::kDiffuse, {CableJump::kDiffuse}); }
+TEST_F(CableMovesToy, Pair) { expect_balance(CableMove::kPair, {CableJump::kPairRedraw, CableJump::kPairSwap}); }
+TEST_F(CableMovesToy, PairFill) {
+  expect_balance(CableMove::kPairFill,
+                 {CableJump::kPairExtend, CableJump::kPairShrink, CableJump::kPairBridge, CableJump::kPairCut});
+}
+TEST_F(CableMovesToy, PairTie) { expect_balance(CableMove::kPairTie, {CableJump::kPairMerge, CableJump::kPairSplit}); }
+
+/// On a continuous toy: one frame with a spot, at most one element. Birth and death must share the time as the integral
+/// of the posterior over place, scale and amplitude says.
+TEST(CableMovesContinuous, OneElementIsThereAsOftenAsItsIntegralSays) {
+  CablePrior prior = toy_prior();
+  prior.width = prior.height = 8;
+  prior.max_per_frame = 1;
+  prior.noise = 10;
+  prior.amplitude = {40, 30};
+  prior.log_scale = {0.4, 0.2};
+  prior.density_first = 2e-8;
+  prior.min_coefficient = 5;
+  const CableLaw law(prior, 1);
+  std::vector<Plane> pictures{Plane(8, 8)};
+  Rng noise(2);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      pictures[0].at(x, y) =
+          static_cast<float>(25 * std::exp(-((x - 4) * (x - 4) + (y - 3.5) * (y - 3.5)) / 4.4) + 4 * noise.normal());
+  CableState state(pictures, {}, law);
+  double integral = 0;
+  constexpr int kSteps = 22;
+  for (int a = 0; a < kSteps; ++a)
+    for (int s = 0; s < kSteps; ++s)
+      for (int y = 0; y < 2 * kSteps; ++y)
+        for (int x = 0; x < 2 * kSteps; ++x) {
+          const CoreState z{-1 + 10 * (x + 0.5) / (2 * kSteps), -1 + 10 * (y + 0.5) / (2 * kSteps),
+                            -0.5 + 1.8 * (s + 0.5) / kSteps, 70 * (a + 0.5) / kSteps, 0};
+          if (!law.is_possible(BaseKind::kGaussian, z)) continue;
+          integral += std::exp(explained_by(state.image(0), BaseKind::kGaussian, z) / 200 + law.log_birth(z, 0));
+        }
+  integral *= 10.0 / (2 * kSteps) * 10.0 / (2 * kSteps) * 1.8 / kSteps * 70.0 / kSteps;
+  const double expected = integral / (1 + integral);
+  ASSERT_GT(expected, 0.1);
+  ASSERT_LT(expected, 0.9);
+  FittedCoreProposal proposal(prior);
+  CableMoves chain(state, law, proposal, {0, 1}, Rng(7));
+  double there = 0;
+  constexpr int kProposals = 200000;
+  for (int i = 0; i < kProposals; ++i) {
+    chain.propose(i % 4 == 3 ? CableMove::kBirthDeath : CableMove::kDiffuse, 0);
+    there += static_cast<double>(state.live(0).size()) / kProposals;
+  }
+  EXPECT_NEAR(there, expected, 0.03);
+}
+
+/// The level of a cable, all else kept: mean and deviation of its amplitude against sums over a grid.
+TEST(CableMovesContinuous, LevelsHaveTheirPosterior) {
+  CablePrior prior = toy_prior();
+  prior.noise = 12;
+  prior.amplitude = {50, 10};
+  prior.log_scale = {0.4, 0.15};
+  const CableLaw law(prior, kFrames);
+  const std::vector<Plane> pictures = toy_pictures();
+  Cable cable;
+  for (int t = 0; t < kFrames; ++t) cable.core.push_back(core_base(BaseKind::kGaussian, {6.0 + t, 4, 0.3, 40, 0}));
+  CableState state(pictures, {cable}, law);
+  CableState empty(pictures, {}, law);
+  double weight_sum = 0, mean = 0, square = 0, most = -1e300;
+  for (int pass = 0; pass < 2; ++pass)
+    for (double s = -0.6; s < 1.4; s += 0.02)
+      for (double a = 10; a < 110; a += 1) {
+        double log_p = 0;
+        CoreState z{6, 4, s, a, 0};
+        log_p += law.log_birth(z, 0);
+        for (int t = 0; t < kFrames; ++t, z[kCoreX] += 1)
+          log_p += explained_by(empty.image(t), BaseKind::kGaussian, z) / (2 * prior.noise * prior.noise);
+        if (pass == 0) {
+          most = std::max(most, log_p);
+          continue;
+        }
+        const double weight = std::exp(log_p - most);
+        weight_sum += weight;
+        mean += weight * a;
+        square += weight * a * a;
+      }
+  mean /= weight_sum;
+  const double deviation = std::sqrt(square / weight_sum - mean * mean);
+  FittedCoreProposal proposal(prior);
+  CableMoves chain(state, law, proposal, {0, kFrames}, Rng(9));
+  constexpr int kProposals = 40000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < kProposals; ++i) {
+    chain.propose(CableMove::kLevel, i % kFrames);
+    const double a = state.element(0, state.live(0)[0]).z[kCoreAmplitude];
+    sum += a / kProposals;
+    squares += a * a / kProposals;
+  }
+  EXPECT_NEAR(sum, mean, 0.035 * deviation);
+  EXPECT_NEAR(std::sqrt(squares - sum * sum), deviation, 0.035 * deviation);
+}
+
+}  // namespace
+}  // namespace motex
