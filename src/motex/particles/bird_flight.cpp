@@ -32,7 +32,9 @@ double wing_height(const MovetonTemplate& birds, const TemplatePose& pose) {
   double sum = 0, weights = 1e-9;
   for (const TemplateCoil& coil : pose.coils) {
     const double away = std::hypot(coil.u.mean, coil.v.mean);
-    const double weight = coil.presence * std::abs(coil.coefficient[0].mean) * away;
+    double light = 0;  // in the colour in which most is seen of it
+    for (const Spread& coefficient : coil.coefficient) light = std::max(light, std::abs(coefficient.mean));
+    const double weight = coil.presence * light * away;
     sum -= weight * (coil.u.mean * s + coil.v.mean * c);  // the picture's y points down
     weights += weight;
   }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "motex/core/error.h"
+#include "motex/particles/cable_tracks.h"
 #include "motex/project/base_sketch.h"
 #include "motex/project/moveton_shape.h"
 
@@ -20,11 +21,19 @@ constexpr double kWeakest = 0.02;      // of its strongest, from which on a shap
 constexpr float kContrast = 1.5F, kSaturation = 1.3F;
 constexpr Rgba kPaper{255, 255, 255, 255}, kDarkInk{24, 26, 40, 255};
 
-double strength(const Base& base) { return std::abs(static_cast<double>(base.coefficients[0])) / base.scale; }
+/// About its peak, up to a factor.
+double strength(const Base& base, int num_planes) { return std::abs(luma_coefficient(base, num_planes)) / base.scale; }
 
-const Base& strongest_core(const Cable& cable) {
-  return *std::max_element(cable.core.begin(), cable.core.end(),
-                           [](const Base& a, const Base& b) { return strength(a) < strength(b); });
+const Base& strongest_core(const Cable& cable, int num_planes) {
+  return *std::max_element(cable.core.begin(), cable.core.end(), [&](const Base& a, const Base& b) {
+    return strength(a, num_planes) < strength(b, num_planes);
+  });
+}
+
+/// With its luma for coefficient.
+Base in_grey(Base base, int num_planes) {
+  base.coefficients[0] = static_cast<float>(luma_coefficient(base, num_planes));
+  return base;
 }
 
 Rgba rgba(const LevelTriple& colour) {
@@ -59,7 +68,7 @@ LevelTriple mean_of(const Planes& planes) {
 double usual_full_ink(const TexturedMotion& model) {
   std::vector<double> sizes;
   for (const Cable& cable : model.cables)
-    for (const Base& base : cable.core) sizes.push_back(std::abs(static_cast<double>(base.coefficients[0])));
+    for (const Base& base : cable.core) sizes.push_back(std::abs(luma_coefficient(base, model.num_planes)));
   if (sizes.empty()) return 0;
   const auto nth = sizes.begin() + static_cast<std::ptrdiff_t>(kFullInkShare * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), nth, sizes.end());
@@ -88,7 +97,7 @@ StylePainter::StylePainter(const TexturedMotion& model, DrawnStyle style, double
   std::vector<double> weights;
   for (const Cable& cable : model.cables) {
     if (cable.core.empty()) continue;
-    const Base& core = strongest_core(cable);
+    const Base& core = strongest_core(cable, num_planes_);
     colours.push_back(colour_at_peak(core));
     weights.push_back(static_cast<double>(cable.num_frames()) * core.scale * core.scale);
   }
@@ -102,8 +111,9 @@ LevelTriple StylePainter::colour_at_peak(const Base& core) const {
   LevelTriple colour{};
   const int x = std::clamp(static_cast<int>(std::lround(core.x)), 0, model_width_ - 1);
   const int y = std::clamp(static_cast<int>(std::lround(core.y)), 0, model_height_ - 1);
-  const double luma_coefficient = static_cast<double>(core.coefficients[0]);
-  const double per_unit = luma_coefficient != 0 ? peak_amplitude(core) / luma_coefficient : 0;
+  Base unit = core;
+  unit.coefficients[0] = 1;
+  const double per_unit = peak_amplitude(unit);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t plane = num_planes_ == 3 ? k : 0;
     const double behind = static_cast<double>(model_background_[plane].at(x, y));
@@ -114,8 +124,8 @@ LevelTriple StylePainter::colour_at_peak(const Base& core) const {
 }
 
 void StylePainter::choose_fill(const Base& core, Looks& looks) const {
-  if (strength(core) <= looks.strongest) return;
-  looks.strongest = strength(core);
+  if (strength(core, num_planes_) <= looks.strongest) return;
+  looks.strongest = strength(core, num_planes_);
   const LevelTriple shown = stressed(colour_at_peak(core), mean_of(model_background_));
   looks.fill = rgba(fills_.empty() ? shown : fills_[static_cast<std::size_t>(nearest_colour(fills_, shown))]);
   looks.outline = mix(looks.fill, kDarkInk, 0.6);
@@ -127,7 +137,7 @@ void StylePainter::draw_symbols(const MovetonFrame& frame, Drawing& drawing) con
   map.height = model_height_;
   for (const Base& base : frame.bases)
     if (base.scale > 0 && base.x >= -0.5 && base.y >= -0.5 && base.x < map.width - 0.5 && base.y < map.height - 0.5)
-      map.bases.push_back(base);
+      map.bases.push_back(in_grey(base, num_planes_));
   append(drawing, base_sketch(map, magnification_, full_ink_), {0, 0});
 }
 
@@ -138,10 +148,11 @@ void StylePainter::draw_shapes(const MovetonFrame& frame, Drawing& drawing) {
     Looks& looks = looks_[moveton.track];
     looks.frame = frame.frame;
     choose_fill(core, looks);
-    const double share = looks.strongest > 0 ? strength(core) / looks.strongest : 0;
+    const double share = looks.strongest > 0 ? strength(core, num_planes_) / looks.strongest : 0;
     if (share < kWeakest) continue;
-    for (std::vector<Point>& outline :
-         cartoon_outlines(frame.bases_of(moveton), moveton.vx, moveton.vy, std::sqrt(share))) {
+    std::vector<Base> bases;
+    for (const Base& base : frame.bases_of(moveton)) bases.push_back(in_grey(base, num_planes_));
+    for (std::vector<Point>& outline : cartoon_outlines(bases, moveton.vx, moveton.vy, std::sqrt(share))) {
       for (Point& p : outline) p = {p.x * magnification_, p.y * magnification_};
       drawing.add(Polygon{outline, {looks.fill, {}, {}, {}}});
       outline.push_back(outline.front());

@@ -124,6 +124,22 @@ TEST(ParticleStyles, SymbolsAreOnWhitePaper) {
   EXPECT_EQ(frame.layer.at(10, 90).a, 0);
 }
 
+TEST(ParticleStyles, DarkBirdsBeforeGreenAreDark) {  // red does not change there: what counts is the luma
+  TexturedMotion model = one_flake();
+  model.num_planes = 3;
+  model.background = {Plane(60, 50, 0), Plane(60, 50, 250), Plane(60, 50, 0)};
+  Base core = blob(30, 20, 2, -200);
+  const float green = core.coefficients[0];
+  core.coefficients = {-0.001F * green, green, 0};
+  model.cables[0].core = {core};
+  for (const DrawnStyle style : {DrawnStyle::kCartoon, DrawnStyle::kSymbolic}) {
+    StylePainter painter(model, style);
+    const Image layer = paint(painter, frame_of(core)).layer;
+    EXPECT_GT(layer.at(30, 20).a, 200);
+    EXPECT_LT(layer.at(30, 20).g, 100);
+  }
+}
+
 TEST(ParticleStyles, FadingElementsShrink) {
   const TexturedMotion model = one_flake();
   StylePainter painter(model, DrawnStyle::kCartoon);
