@@ -189,16 +189,21 @@ void measure_maps(double elements, std::uint64_t seed) {
   std::fflush(stdout);
 }
 
-int run(int first_seed, int num_seeds) {
+int run(int first_seed, int num_seeds, const std::string& part) {
   for (int i = 0; i < num_seeds; ++i) {
     const auto seed = static_cast<std::uint64_t>(first_seed + i);
-    for (const double elements : {60.0, 150.0, 300.0}) measure_dynamics(elements, 0.7, 0.25, seed, true);
-    measure_dynamics(150, 0.9, 0.35, seed, true);
-    measure_dynamics(150, 0.3, 0.4, seed, true);
-    measure_bursts(seed, false);
-    measure_bursts(seed, true);
-    measure_wings(seed);
-    for (const double elements : {60.0, 150.0, 300.0}) measure_maps(elements, seed);
+    if (part.empty() || part == "dynamics") {
+      for (const double elements : {60.0, 150.0, 300.0}) measure_dynamics(elements, 0.7, 0.25, seed, true);
+      measure_dynamics(150, 0.9, 0.35, seed, true);
+      measure_dynamics(150, 0.3, 0.4, seed, true);
+    }
+    if (part.empty() || part == "bursts") {
+      measure_bursts(seed, false);
+      measure_bursts(seed, true);
+    }
+    if (part.empty() || part == "wings") measure_wings(seed);
+    if (part.empty() || part == "maps")
+      for (const double elements : {60.0, 150.0, 300.0}) measure_maps(elements, seed);
   }
   return 0;
 }
@@ -206,10 +211,10 @@ int run(int first_seed, int num_seeds) {
 }  // namespace
 }  // namespace motex
 
-/// particles_dynamics [FIRST_SEED [NUM_SEEDS]]
+/// particles_dynamics [FIRST_SEED [NUM_SEEDS [dynamics|bursts|wings|maps]]]
 int main(int argc, char** argv) {
   try {
-    return motex::run(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? std::atoi(argv[2]) : 2);
+    return motex::run(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? std::atoi(argv[2]) : 2, argc > 3 ? argv[3] : "");
   } catch (const motex::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
