@@ -313,6 +313,13 @@ class CableMovesToy : public ::testing::Test {
       for (std::size_t k = 0; k < accepted.size(); ++k) accepted[k] += chain.counts()[k].accepted;
     }
     for (const CableJump jump : jumps) EXPECT_GT(accepted[static_cast<std::size_t>(jump)], 100) << name_of(jump);
+    // what one direction leads away, the other brings back
+    for (auto jump = jumps.begin(); jump != jumps.end() && jump + 1 != jumps.end() && *jump != CableJump::kPairRedraw;
+         jump += 2) {
+      const auto there = static_cast<double>(accepted[static_cast<std::size_t>(*jump)]),
+                 back = static_cast<double>(accepted[static_cast<std::size_t>(*(jump + 1))]);
+      EXPECT_LT(std::abs(there - back), 4 * std::sqrt(there + back)) << name_of(*jump) << ": " << there << ", " << back;
+    }
     return std::max(asymmetry(flows), asymmetry(class_flows));
   }
 
