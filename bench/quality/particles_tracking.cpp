@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <map>
 #include <sstream>
 #include <string>
 
@@ -107,11 +106,12 @@ void measure_folder(const fs::path& folder) {
 int run() {
   const char* given = std::getenv("MOTEX_BENCH_DATA");
   std::string folders = given != nullptr ? given : "";
-  if (folders.empty()) folders = (fs::path(MOTEX_SHARED_DATA) / "video" / "synth").string();
+  if (folders.empty()) folders = (fs::path(MOTEX_SHARED_DATA) / "video").string();
   std::istringstream list(folders);
   for (std::string folder; std::getline(list, folder, ':');) {
     try {
-      measure_folder(folder);
+      const fs::path synth = fs::path(folder) / "synth";
+      measure_folder(fs::exists(synth) ? synth : fs::path(folder));
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s: %s\n", folder.c_str(), error.what());
       return 1;

@@ -27,7 +27,7 @@ class DisplacementHistogram {
       : half_(static_cast<int>(std::ceil(max_speed / kBin))),
         counts_(static_cast<std::size_t>(size()) * static_cast<std::size_t>(size())) {}
 
-  void count(std::vector<Base> from, std::vector<Base> to) {
+  void count(const std::vector<Base>& from, std::vector<Base> to) {
     const auto by_y = [](const Base& a, const Base& b) { return a.y < b.y; };
     std::sort(to.begin(), to.end(), by_y);
     const double reach = half_ * kBin;
