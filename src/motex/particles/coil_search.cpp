@@ -48,7 +48,8 @@ void gaussian_responses(const Plane& image, double scale, Plane& across, Plane& 
 }
 
 bool within(double x, double y, const Base& core, double reach) {
-  return std::hypot(x - core.x, y - core.y) <= reach * core.scale;
+  const double dx = x - core.x, dy = y - core.y, near = reach * core.scale;
+  return dx * dx + dy * dy <= near * near;
 }
 
 struct Place {

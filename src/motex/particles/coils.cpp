@@ -166,7 +166,8 @@ std::vector<std::vector<char>> isolated_frames(const std::vector<Cable>& cables,
     for (std::size_t i = 0; i < here.size(); ++i)
       for (std::size_t k = i + 1; k < here.size(); ++k) {
         const Base &a = cables[here[i]].at(frame), &b = cables[here[k]].at(frame);
-        if (std::hypot(a.x - b.x, a.y - b.y) > reach * (a.scale + b.scale)) continue;
+        const double dx = a.x - b.x, dy = a.y - b.y, near = reach * (a.scale + b.scale);
+        if (dx * dx + dy * dy > near * near) continue;
         out[here[i]][static_cast<std::size_t>(frame - cables[here[i]].first_frame)] = 0;
         out[here[k]][static_cast<std::size_t>(frame - cables[here[k]].first_frame)] = 0;
       }

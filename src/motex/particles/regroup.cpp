@@ -187,7 +187,7 @@ std::vector<RelativeBase> coils_of_mean(const std::vector<std::vector<RelativeBa
 GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, const std::vector<Plane>& residuals,
                               std::vector<Cable>& cables, const RegroupCoilsOptions& options, const JobContext& job) {
   const Shapes shapes = mean_shapes(cables, clip.num_planes(), options);
-  std::vector<char> regrouped(cables.size(), 0);
+  std::vector<char> regrouped(cables.size(), 0), growing(cables.size(), 0);
   std::vector<std::vector<std::vector<Base>>> starts(cables.size());
   for (std::size_t c = 0; c < cables.size(); ++c) {
     regrouped[c] = has_common_coils(cables[c], shapes) ? 1 : 0;
@@ -197,7 +197,9 @@ GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, 
           base.coefficients = {static_cast<float>(luma_coefficient(base, clip.num_planes())), 0, 0};
       continue;
     }
+    const std::size_t num_before = cables[c].coils.size();
     place_coils(cables[c], shapes, clip.num_planes());
+    growing[c] = cables[c].coils.size() < num_before ? 1 : 0;
     starts[c] = cables[c].coils;
   }
   MovetonLight light(clip, background, residuals, cables, kMostReach * options.reach, job);
@@ -227,7 +229,7 @@ GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, 
   more.max_coils = options.max_coils;
   more.min_share = options.min_share;
   more.reach = options.reach;
-  add_coils(light, cables, regrouped, more, report.noise, job);
+  add_coils(light, cables, growing, more, report.noise, job);
   report.psnr = light.psnr();
   light.fit_colours();
   count_bases(cables, options.reach, report);

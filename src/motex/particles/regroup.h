@@ -26,9 +26,9 @@ std::vector<RelativeBase> coils_of_mean(const std::vector<std::vector<RelativeBa
 /// explained again by the bases of its own shape. Coils begin where the mean shape of the moveton's species and state
 /// has them and are fitted to the frame in turn, on a leash, so that the same coil stands for the same part (a left
 /// wing) in all movetons; coefficients of a frame are solved for together. A cable has as many coils as the richest of
-/// its states; in a state with fewer the others have coefficient 0. What then is left is given to coils of its own
-/// (add_coils), up to max_coils. Where a shape's
-/// movetons have no coils in common, cables keep those that they have.
+/// its states; in a state with fewer the others have coefficient 0. What then is left of a cable that had more coils is
+/// given to coils of its own (add_coils), up to max_coils. Where a shape's movetons have no coils in common, cables
+/// keep those that they have.
 ///
 /// cables: with coils, species and poses; coils and coefficients are replaced. residuals: see grow_coils.
 GrowCoilsReport regroup_coils(const ClipFrames& clip, const Planes& background, const std::vector<Plane>& residuals,
