@@ -150,10 +150,10 @@ Command particles_maps() {
   return make_command<Maps>(
       {"particles maps", "where elements are born, are, and die",
        "source.png, sink.png and occupancy.png are densities, 255 = the largest; hazard.png is 255 times the square "
-       "root of "
-       "the probability to die before the next frame. All four can be painted and given to particles synthesize "
-       "(--source-map …), where of densities only proportions count. maps.png shows them with scales; births.csv, "
-       "deaths.csv, bursts.csv, maps.json.",
+       "root "
+       "of the probability to die before the next frame. source.png and sink.png can be painted and given to particles "
+       "synthesize (--source-map, --sink-map), where only proportions count. maps.png shows all with scales; "
+       "births.csv, deaths.csv, bursts.csv, maps.json.",
        "motex particles maps snow.motex -o snow_maps\n"
        "motex particles maps fireworks.motex -o maps --json"});
 }
