@@ -15,8 +15,7 @@ std::int64_t floor_divided(std::int64_t a, std::int64_t b) { return a >= 0 ? a /
 
 }  // namespace
 
-Arrivals::Arrivals(double rate, std::int64_t period, const Rng& rng)
-    : rate_(rate), period_(period), num_in_period_(0), rng_(rng) {
+Arrivals::Arrivals(double rate, std::int64_t period, const Rng& rng) : rate_(rate), period_(period), rng_(rng) {
   if (period_ <= 0 || rate_ <= 0) return;
   num_in_period_ = std::max<std::int64_t>(1, std::llround(rate_ * static_cast<double>(period_)));
   rate_ = static_cast<double>(num_in_period_) / static_cast<double>(period_);

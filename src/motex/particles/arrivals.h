@@ -24,7 +24,7 @@ class Arrivals {
 
  private:
   double rate_;
-  std::int64_t period_, num_in_period_;
+  std::int64_t period_, num_in_period_ = 0;
   Rng rng_;
 };
 

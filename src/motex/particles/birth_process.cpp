@@ -136,8 +136,9 @@ void BirthProcess::draw_place(double& x, double& y, Rng& rng) const {
   const double wanted = rng.uniform() * source_.back();
   const auto found = std::upper_bound(source_.begin(), source_.end(), wanted);
   const auto pixel = std::min(found, source_.end() - 1) - source_.begin();
-  x = static_cast<double>(pixel % model_.width) + rng.uniform() - 0.5;
-  y = static_cast<double>(pixel / model_.width) + rng.uniform() - 0.5;
+  const std::ptrdiff_t row = pixel / model_.width, column = pixel % model_.width;
+  x = static_cast<double>(column) + rng.uniform() - 0.5;
+  y = static_cast<double>(row) + rng.uniform() - 0.5;
 }
 
 ElementBirth BirthProcess::birth_like(const Item& item, Rng& rng) const {

@@ -209,7 +209,7 @@ void CableSynthesizer::Population::add(const ElementBirth& birth) {
   element.rng = birth.rng;
   element.is_burst = birth.is_burst;
   element.life = birth.life;
-  element.frailty = fates_[static_cast<std::size_t>(birth.cable)].frailty;
+  if (options_.sink_map.values.empty()) element.frailty = fates_[static_cast<std::size_t>(birth.cable)].frailty;
   element.fades_in = !birth.is_burst && !birth.enters;
   element.law = &laws_[law_idx(cable.species)];
   element.looks_rng = birth.rng.fork(1);  // so that motion does not depend on looks
