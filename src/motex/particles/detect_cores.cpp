@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kRounds = 3;  // searches of what the spots found so far leave
 constexpr std::size_t kSampleFrames = 7;
+constexpr double kCrowded = 0.15;  // share of the picture within two scales of a peak
+constexpr double kOneSignedCrowded = 0.6;
 constexpr double kOneSigned = 0.8;       // share of the energy that makes a clip bright (or dark)
 constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest elements
 constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
@@ -28,12 +30,13 @@ constexpr double kSplitGain = 35;   // of the squared error in squared noises, f
 constexpr double kAgreement = 0.4;  // of the amplitude expected: the frame agrees with a guess
 constexpr double kWeakRatio = 0.2;  // of a stronger spot's peak there: a part of it
 
-double median(std::vector<double> values) {
+double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
+double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 Plane negated(Plane plane) {
   for (float& value : plane.values) value = -value;
@@ -244,15 +247,15 @@ std::vector<Plane> sample_of(const std::vector<Plane>& residuals) {
   return sample;
 }
 
-CoreSign sign_of(const std::vector<BlobPeak>& peaks) {
+CoreSign sign_of(const std::vector<BlobPeak>& peaks, double share) {
   double bright = 0, all = 0;
   for (const BlobPeak& peak : peaks) {
     const double energy = peak.response * peak.response;
     all += energy;
     if (peak.amplitude > 0) bright += energy;
   }
-  if (bright >= kOneSigned * all) return CoreSign::kBright;
-  return bright <= (1 - kOneSigned) * all ? CoreSign::kDark : CoreSign::kBoth;
+  if (bright >= share * all) return CoreSign::kBright;
+  return bright <= (1 - share) * all ? CoreSign::kDark : CoreSign::kBoth;
 }
 
 /// The amplitude above which half of the energy lies.
@@ -331,13 +334,18 @@ DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& re
         find_blob_peaks(residual, options.max_scale, options.min_significance * noise, true);
     peaks.insert(peaks.end(), here.begin(), here.end());
   }
-  if (out.sign == CoreSign::kAuto) out.sign = sign_of(peaks);
+  // Where elements cover much of the picture the background is biased, and many that look elongated are two.
+  double covered = 0, area = 1;
+  for (const BlobPeak& peak : peaks) covered += std::numbers::pi * 4 * peak.scale * peak.scale;
+  for (const Plane& residual : sample) area += static_cast<double>(residual.values.size());
+  const bool is_crowded = covered > kCrowded * area;
+  if (out.sign == CoreSign::kAuto) out.sign = sign_of(peaks, is_crowded ? kOneSignedCrowded : kOneSigned);
   out.min_amplitude = kFaint * main_amplitude(peaks, out.sign);
   std::vector<double> aspects, misfits;
   for (const Plane& residual : sample)
     for (const Blob& blob : outstanding(residual, noise, out, misfits)) aspects.push_back(blob.aspect());
   if (out.shape == CoreShape::kAuto)
-    out.shape = median(aspects) > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
+    out.shape = quantile(aspects, is_crowded ? 0.25 : 0.5) > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
   out.shape_misfit = std::min(0.3, median(misfits));
   return out;
 }
