@@ -19,12 +19,41 @@ constexpr double kMaxJump = 2.5;      // scales that a base may lie from where i
 constexpr double kMaxGrowth = 1.35;   // of its scale in one frame
 constexpr double kOwnVelocity = 0.5;  // weight of the last step in a cable's velocity
 
+constexpr float kMostCancelled = 2.5F;  // |α| / |⟨b, image⟩| of a base that mostly makes up for others
+constexpr double kAlike = 0.9;          // inner product of two bases beyond which they are one
+
 struct CarriedBase {
   Base base;  ///< coefficients[0] is that of the luma, angle unwrapped
   BasePatch patch;
   double vx = 0, vy = 0;
   int cable = 0;
 };
+
+double dot(const BasePatch& a, const BasePatch& b) {
+  const int left = std::max(a.left, b.left), right = std::min(a.left + a.width, b.left + b.width);
+  const int top = std::max(a.top, b.top), bottom = std::min(a.top + a.height, b.top + b.height);
+  double sum = 0;
+  for (int y = top; y < bottom; ++y) {
+    const float* p = a.row(y - a.top) - a.left;
+    const float* q = b.row(y - b.top) - b.left;
+    for (int x = left; x < right; ++x) sum += static_cast<double>(p[x] * q[x]);
+  }
+  return sum;
+}
+
+double squares_left(Plane image, const std::vector<BasePatch>& patches, const std::vector<float>& coefficients) {
+  for (std::size_t j = 0; j < patches.size(); ++j) add_patch(image, patches[j], -coefficients[j]);
+  double sum = 0;
+  for (const float value : image.values) sum += static_cast<double>(value * value);
+  return sum;
+}
+
+/// Least squares, or `start` where rounding makes of it something worse (bases nearly alike).
+std::vector<float> fit_or_keep(const Plane& image, const std::vector<BasePatch>& patches,
+                               const std::vector<float>& start) {
+  std::vector<float> fitted = fit_coefficients(image, patches, start);
+  return squares_left(image, patches, fitted) <= squares_left(image, patches, start) ? fitted : start;
+}
 
 /// Frames visited in one direction from the middle.
 class Carrier {
@@ -49,6 +78,7 @@ class Carrier {
     residual_ = target_;
     move_along();
     refit();
+    drop_doubles();
     give_up_weak();
     pursue_rest();
     finish_frame(frame);
@@ -137,12 +167,37 @@ class Carrier {
     return true;
   }
 
+  /// Of two bases that have become one, the weaker ends; its light is found again if it is needed.
+  void drop_doubles() {
+    std::vector<char> ended(carried_.size(), 0);
+    for (std::size_t a = 0; a < carried_.size(); ++a)
+      for (std::size_t b = a + 1; b < carried_.size(); ++b) {
+        const Base &p = carried_[a].base, &q = carried_[b].base;
+        if (ended[a] != 0 || ended[b] != 0) continue;
+        const double near = 0.7 * std::min(p.scale, q.scale);
+        if (std::abs(p.x - q.x) > near || std::abs(p.y - q.y) > near) continue;
+        if (std::abs(dot(carried_[a].patch, carried_[b].patch)) < kAlike) continue;
+        ended[std::abs(p.coefficients[0]) < std::abs(q.coefficients[0]) ? a : b] = 1;
+      }
+    std::vector<CarriedBase> kept;
+    for (std::size_t k = 0; k < carried_.size(); ++k) {
+      if (ended[k] == 0)
+        kept.push_back(std::move(carried_[k]));
+      else
+        add_patch(residual_, carried_[k].patch, carried_[k].base.coefficients[0]);
+    }
+    carried_ = std::move(kept);
+  }
+
+  /// And those that cancel others: small moves of such pairs leave large errors.
   void give_up_weak() {
     solve_coefficients();
     const float least = std::max(static_cast<float>(options_.min_coefficient), 0.7F * weakest_new_);
     std::vector<CarriedBase> kept;
     for (CarriedBase& one : carried_) {
-      if (std::abs(one.base.coefficients[0]) >= least)
+      const float strength = std::abs(one.base.coefficients[0]);
+      const bool cancels = strength > kMostCancelled * std::abs(inner_product(one.patch, target_)) + least;
+      if (strength >= least && !cancels)
         kept.push_back(std::move(one));
       else
         add_patch(residual_, one.patch, one.base.coefficients[0]);
@@ -177,7 +232,7 @@ class Carrier {
       patches.push_back(std::move(one.patch));
       coefficients.push_back(one.base.coefficients[0]);
     }
-    coefficients = fit_coefficients(target_, patches, coefficients);
+    coefficients = fit_or_keep(target_, patches, coefficients);
     residual_ = target_;
     for (std::size_t j = 0; j < carried_.size(); ++j) {
       add_patch(residual_, patches[j], -coefficients[j]);
@@ -217,7 +272,7 @@ class Carrier {
     for (std::size_t k = 0; k < 3; ++k) {
       Plane target = planes[k];
       for (std::size_t i = 0; i < target.values.size(); ++i) target.values[i] -= background_[k].values[i];
-      const std::vector<float> fit = fit_coefficients(target, patches, grey);
+      const std::vector<float> fit = fit_or_keep(target, patches, grey);
       for (std::size_t j = 0; j < out.size(); ++j) out[j][k] = fit[j];
     }
     return out;

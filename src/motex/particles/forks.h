@@ -21,17 +21,17 @@ struct Fork {
 
 struct ForksReport {
   std::vector<Fork> forks, merges;
-  double num_ends = 0;    ///< cables that end inside the clip and could fork
-  double num_begins = 0;  ///< cables that begin inside the clip and could have merged
+  double num_steps = 0;  ///< of cables, which might be forks
   /// What would be found by chance: with the cables that begin (end) a few frames later or earlier, for which there is
   /// no reason to go on with the light of this one.
   double forks_by_chance = 0, merges_by_chance = 0;
 };
 
-/// Bifurcations ([TM02], last page). The core of a cable that ends, α b, moved on by its last velocity, is compared
-/// with the cores α₁ b₁, α₂ b₂ that begin in the next frame nearby: a fork is where each of the two shows at least a
-/// fifth of it, α_k ⟨b, b_k⟩ ≥ α / 5, and both together leave at most half of its energy, ‖α b − α₁ b₁ − α₂ b₂‖² ≤ α² /
-/// 2, and less than three quarters of what the better one leaves alone. width, height: of the picture.
+/// Bifurcations ([TM02], last page). The core of a cable, α b, moved on by its velocity, is compared with the cores
+/// α₁ b₁, α₂ b₂ that go on with its light in the next frame: two that begin there nearby, or the cable itself and one
+/// that begins. A fork is where each shows at least a fifth of it, α_k ⟨b, b_k⟩ ≥ α / 5, and both together leave at
+/// most half of its energy, ‖α b − α₁ b₁ − α₂ b₂‖² ≤ α² / 2, and less than three quarters of what the better one leaves
+/// alone. Merges are forks of the clip shown backwards. width, height: of the picture.
 ForksReport find_forks(const std::vector<Cable>& cables, std::int64_t num_frames, int width, int height);
 
 }  // namespace motex
