@@ -16,7 +16,7 @@
 namespace motex {
 namespace {
 
-constexpr Rgba kLink{150, 150, 150, 255}, kInk{30, 30, 30, 255}, kFrame{210, 210, 210, 255};
+constexpr Rgba kLink{200, 60, 40, 255}, kInk{30, 30, 30, 255}, kFrame{210, 210, 210, 255};
 constexpr double kAlways = 0.9;  // presence from which a link is drawn through
 
 Drawing panel(double width, double height) {
@@ -71,10 +71,10 @@ Drawing pose_sketch(const MovetonTemplate& of, const TemplatePose& pose, int num
   for (std::size_t j = 0; j < pose.coils.size(); ++j) {
     const Base& base = map.bases[j + 1];
     const Point there{(base.x + 0.5) * magnification, (base.y + 0.5) * magnification};
-    out.add(Polyline{{middle, there}, {200, 60, 40, 255}, 1.2, pose.coils[j].presence < kAlways ? 4.0 : 0.0});
-    out.add(Disc{there, 2, {200, 60, 40, 255}});
+    out.add(Polyline{{middle, there}, kLink, 1.2, pose.coils[j].presence < kAlways ? 4.0 : 0.0});
+    out.add(Disc{there, 2, kLink});
   }
-  out.add(Disc{middle, 3, {200, 60, 40, 255}});
+  out.add(Disc{middle, 3, kLink});
   add_frame(out, 0.5, 0.5, size - 1, size - 1);
   return out;
 }
@@ -121,7 +121,7 @@ Drawing tiles(const std::vector<Image>& images, int columns, double size) {
   Drawing out = panel(columns * (size + 3) + 3, rows * (size + 3) + 3);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto column = static_cast<double>(i % static_cast<std::size_t>(columns));
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(columns));
+    const auto row = std::floor(static_cast<double>(i) / columns);
     out.add(Picture{
         {3 + column * (size + 3), 3 + row * (size + 3)}, size, size * images[i].height / images[i].width, images[i]});
   }
@@ -233,7 +233,7 @@ Drawing moveton_instances_picture(const TexturedMotion& model, const ClipFrames&
   Drawing out = panel(columns * (size + 3) + 3, rows * (height + 5) + 3);
   for (std::size_t i = 0; i < images.size(); ++i) {
     const auto column = static_cast<double>(i % static_cast<std::size_t>(columns));
-    const auto row = static_cast<double>(i / static_cast<std::size_t>(columns));
+    const auto row = std::floor(static_cast<double>(i) / columns);
     out.add(Picture{{3 + column * (size + 3), 3 + row * (height + 5)}, size, height, images[i]});
   }
   return out;
