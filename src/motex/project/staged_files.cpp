@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "motex/project/staged_files.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <string>
 #include <system_error>
@@ -12,6 +10,22 @@
 
 namespace motex {
 namespace fs = std::filesystem;
+
+namespace {
+
+/// A new one; others may be at work beside us.
+fs::path make_folder(const fs::path& parent, const fs::path& target) {
+  constexpr int kMostTries = 10000;
+  std::error_code ec;
+  for (int k = 0; k < kMostTries; ++k) {
+    const fs::path folder = parent / (".motex-part" + std::to_string(k));
+    if (fs::create_directory(folder, ec)) return folder;
+    if (ec) break;
+  }
+  throw InvalidInput(target.string() + ": cannot be written there: " + (ec ? ec.message() : "too many .motex-part*"));
+}
+
+}  // namespace
 
 StagedFiles::~StagedFiles() {
   std::error_code ec;
@@ -23,12 +37,10 @@ fs::path StagedFiles::stage(const fs::path& target) {
   const fs::file_status status = fs::status(target, ec);
   if (fs::exists(status) && !fs::is_regular_file(status)) return target;
   const fs::path parent = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  const fs::path folder = parent / (".motex-part" + std::to_string(::getpid()));
-  if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) {
-    fs::create_directory(folder, ec);
-    if (ec) throw InvalidInput(target.string() + ": cannot be written there: " + ec.message());
-    folders_.push_back(folder);
-  }
+  const auto known = std::find_if(folders_.begin(), folders_.end(),
+                                  [&parent](const fs::path& folder) { return folder.parent_path() == parent; });
+  const fs::path folder = known != folders_.end() ? *known : make_folder(parent, target);
+  if (known == folders_.end()) folders_.push_back(folder);
   files_.emplace_back(folder / target.filename(), target);
   return files_.back().first;
 }

@@ -3,7 +3,6 @@
 #include "motex/project/synthesize_video.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
@@ -19,8 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 
 struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("motex_synthesize_video_test" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
+  fs::path path;
+  TemporaryFolder() {
+    for (int k = 0; path.empty() || !fs::create_directory(path); ++k)
+      path = fs::temp_directory_path() / ("motex_synthesize_video_test" + std::to_string(k));
+  }
   ~TemporaryFolder() { fs::remove_all(path); }
   std::size_t num_files() const {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator{}));
