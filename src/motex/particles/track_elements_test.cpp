@@ -85,7 +85,7 @@ TEST(TrackElements, SnowIsTrackedAndItsNoiseAndDynamicsFound) {
 }
 
 TEST(TrackElements, TheSecondRoundTellsMoreOfThemApart) {
-  const Snow snow = snowfall(90, 16, 3);
+  const Snow snow = snowfall(60, 24, 6);
   const auto beta_of = [&](int rounds) {
     TrackElementsOptions options;
     options.rounds = rounds;
