@@ -21,7 +21,7 @@ namespace motex {
 namespace {
 
 constexpr std::array<const char*, 4> kClasses{"snow", "birds", "fireworks", "water"};
-constexpr int kMostFrames = 120;  // of both halves
+constexpr int kMostFrames = 80;  // of both halves
 
 struct Halves {
   std::string name;
