@@ -38,6 +38,8 @@ struct FitBlobsOptions {
   double min_scale = 0.6, max_scale = 10;
 };
 
+class BlobCluster;
+
 /// Fits blobs to an image together: clusters of near ones by Levenberg–Marquardt in all their parameters, one cluster
 /// after the other against what the rest leaves. Minimises Σ (image − Σ blobs)² / noise² + the priors.
 class BlobFitter {
@@ -75,8 +77,7 @@ class BlobFitter {
   std::vector<BlobPrior> priors_;
   std::vector<char> is_settled_;
   std::vector<float> painted_;  // buffer of paint()
-  struct Solver;
-  std::unique_ptr<Solver> solver_;
+  std::unique_ptr<BlobCluster> cluster_;
 };
 
 }  // namespace motex
