@@ -16,7 +16,7 @@ namespace motex {
 namespace {
 
 constexpr int kFrames = 3;
-constexpr double kPlaces[] = {5, 8, 14};  // x; two cells
+constexpr double kPlaces[] = {8, 11, 14};  // x; one cell
 constexpr int kNumPlaces = 3;
 
 CoreState place(int idx) { return {kPlaces[idx], 4, std::log(1.5), 60, 0}; }
@@ -112,7 +112,7 @@ std::vector<Plane> toy_pictures() {
     for (int y = 0; y < 8; ++y)
       for (int x = 0; x < 24; ++x)
         pictures[static_cast<std::size_t>(t)].at(x, y) +=
-            static_cast<float>(50 * std::exp(-((x - 6 - t) * (x - 6 - t) + (y - 4) * (y - 4)) / 4.5));
+            static_cast<float>(50 * std::exp(-((x - 9 - t) * (x - 9 - t) + (y - 4) * (y - 4)) / 4.5));
   return pictures;
 }
 
@@ -456,7 +456,7 @@ TEST(CableMovesContinuous, LevelsHaveTheirPosterior) {
   const CableLaw law(prior, kFrames);
   const std::vector<Plane> pictures = toy_pictures();
   Cable cable;
-  for (int t = 0; t < kFrames; ++t) cable.core.push_back(core_base(BaseKind::kGaussian, {6.0 + t, 4, 0.3, 40, 0}));
+  for (int t = 0; t < kFrames; ++t) cable.core.push_back(core_base(BaseKind::kGaussian, {9.0 + t, 4, 0.3, 40, 0}));
   CableState state(pictures, {cable}, law);
   CableState empty(pictures, {}, law);
   double weight_sum = 0, mean = 0, square = 0, most = -1e300;
@@ -464,7 +464,7 @@ TEST(CableMovesContinuous, LevelsHaveTheirPosterior) {
     for (double s = -0.6; s < 1.4; s += 0.02)
       for (double a = 10; a < 110; a += 1) {
         double log_p = 0;
-        CoreState z{6, 4, s, a, 0};
+        CoreState z{9, 4, s, a, 0};
         log_p += law.log_birth(z, 0);
         for (int t = 0; t < kFrames; ++t, z[kCoreX] += 1)
           log_p += explained_by(empty.image(t), BaseKind::kGaussian, z) / (2 * prior.noise * prior.noise);
