@@ -19,8 +19,8 @@ constexpr double kMaxJump = 2.5;      // scales that a base may lie from where i
 constexpr double kMaxGrowth = 1.35;   // of its scale in one frame
 constexpr double kOwnVelocity = 0.5;  // weight of the last step in a cable's velocity
 
-constexpr float kMostCancelled = 2.5F;  // |α| / |⟨b, image⟩| of a base that mostly makes up for others
-constexpr double kAlike = 0.9;          // inner product of two bases beyond which they are one
+constexpr float kMostCancelled = 5;  // |α| / |⟨b, image⟩| of a base that mostly makes up for others
+constexpr double kAlike = 0.9;       // inner product of two bases beyond which they are one
 
 struct CarriedBase {
   Base base;  ///< coefficients[0] is that of the luma, angle unwrapped
