@@ -39,9 +39,8 @@ ClipFrames load_video_clip(const std::filesystem::path& path, const LoadVideoCli
   clip.height = reader.info().height;
   const double rate = options.frames_per_sec > 0 ? options.frames_per_sec : reader.info().frames_per_sec;
   clip.frames_per_sec = rate > 0.01 && rate <= 1000 ? rate : 25;
-  const double expected = std::max<double>(1, options.num_frames > 0
-                                                  ? options.num_frames
-                                                  : static_cast<double>(reader.info().num_frames_said));
+  const double expected = std::max<double>(
+      1, options.num_frames > 0 ? options.num_frames : static_cast<double>(reader.info().num_frames_said));
   bool is_grey = true;
   for (DeepVideoFrame frame;
        (options.num_frames == 0 || clip.num_frames() < options.num_frames) && reader.next(frame);) {
