@@ -109,7 +109,7 @@ class Sampler {
       FittedCoreProposal proposal(law_.prior());
       CableMoves moves(state_, law_, proposal, pieces[idx], sweep_rng.fork(static_cast<std::uint64_t>(task)));
       for (int frame = pieces[idx].first; frame < pieces[idx].end; ++frame) go_through(frame, sweep, moves);
-      if (sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
+      if (options_.jumps && sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
         rebuilds[idx] = search(pieces[idx], moves);
       changes[idx] = moves.log_posterior_change();
       counts[idx] = moves.counts();
@@ -129,7 +129,9 @@ class Sampler {
     for (int frame = piece.first; frame < piece.end; ++frame) {
       const std::vector<int> all = state_.live(frame);
       for (const int idx : all) {
-        if (state_.element(frame, idx).live_place < 0 || !moves.is_suspicious(frame, idx)) continue;
+        const CoreElement& element = state_.element(frame, idx);
+        if (element.live_place < 0 || !is_round(element.kind)) continue;  // oriented ones: a hundred times as dear
+        if (!moves.is_suspicious(frame, idx)) continue;
         ++count.proposed;
         count.accepted += moves.rebuild_around(frame, idx) ? 1 : 0;
       }
@@ -157,8 +159,9 @@ class Sampler {
 
   void go_through(int frame, int sweep, CableMoves& moves) const {
     for (const MoveRate& rate : kRates) {
-      if (sweep < kSettlingSweeps && !keeps_links(rate.move)) continue;
-      double num = rate.per_element * elements_per_frame_ + rate.per_cell * state_.num_cells();
+      if ((sweep < kSettlingSweeps || !options_.jumps) && !keeps_links(rate.move)) continue;
+      const double num_cells = std::min<double>(state_.num_cells(), 4 + 2 * elements_per_frame_);
+      double num = rate.per_element * elements_per_frame_ + rate.per_cell * num_cells;
       if (sweep < kSettlingSweeps) num *= 2;
       for (int k = 0; k < static_cast<int>(num + 0.5); ++k) moves.propose(rate.move, frame);
     }

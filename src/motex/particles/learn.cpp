@@ -72,6 +72,8 @@ class Learning {
     const CablePrior prior = estimate_prior(model().cables, clip_.width, clip_.height, prior_options);
     SampleCablesOptions sample_options;
     sample_options.sweeps = options_.sweeps;
+    sample_options.jumps = cores_explain_elements();
+    sample_options.search_sweeps = options_.sweeps / 3;
     sample_options.learn_sweeps = options_.sweeps / 2;
     sample_options.static_background = background_.kind() != BackgroundKind::kSmooth;
     sample_options.seed = options_.seed + static_cast<std::uint64_t>(round);
@@ -86,6 +88,14 @@ class Learning {
     std::vector<double>& trace = learned_.report.log_posterior_trace;
     trace.insert(trace.end(), sampled.log_posterior_trace.begin(), sampled.log_posterior_trace.end());
     add_round(trace.empty() ? 0 : trace.back());
+  }
+
+  /// Whether background and cores leave little but noise. Where elements have parts (wings), the jumps, which know
+  /// cores alone, would explain the parts by elements of their own.
+  bool cores_explain_elements() const {
+    constexpr double kMostMisfit = 1.5;
+    const LearnRound& last = learned_.report.rounds.back();
+    return 255 * std::pow(10.0, -last.psnr / 20) < kMostMisfit * last.noise;
   }
 
   void add_moves(const std::vector<MoveCount>& moves) {

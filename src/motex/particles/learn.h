@@ -22,8 +22,8 @@ enum class TrackingKind {
 
 struct LearnTexturedMotionOptions {
   std::uint64_t seed = 1;
-  int rounds = 2;
-  int sweeps = 20;
+  int rounds = 1;
+  int sweeps = 12;
   BackgroundKind background = BackgroundKind::kAuto;
   bool coils = true;
   TrackingKind tracking = TrackingKind::kAuto;
