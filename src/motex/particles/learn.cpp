@@ -73,6 +73,7 @@ class Learning {
     SampleCablesOptions sample_options;
     sample_options.sweeps = options_.sweeps;
     sample_options.jumps = cores_explain_elements();
+    if (!sample_options.jumps) sample_options.sweeps = std::min(sample_options.sweeps, 3);
     sample_options.search_sweeps = options_.sweeps / 3;
     sample_options.learn_sweeps = options_.sweeps / 2;
     sample_options.static_background = background_.kind() != BackgroundKind::kSmooth;
