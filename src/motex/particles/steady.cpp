@@ -185,7 +185,7 @@ SteadyClip steady(const ClipFrames& clip, const JobContext& job) {
   out.clip.luma.resize(num);
   if (!clip.colour.empty()) out.clip.colour.resize(num);
   parallel_for(job.jobs, static_cast<int>(num), [&](int k) {
-    const auto to = static_cast<std::size_t>(k), from = static_cast<std::size_t>(first + k);
+    const auto to = static_cast<std::size_t>(k), from = to + static_cast<std::size_t>(out.first_frame);
     const double x = out.left + shifts[from].dx, y = out.top + shifts[from].dy;
     if (clip.colour.empty()) {
       out.clip.luma[to] = cut(clip.luma[from], x, y, width, height);
