@@ -189,8 +189,7 @@ LearnedTexturedMotion learned_from_water(const ClipFrames& clip, const LearnText
   LearnedTexturedMotion out;
   out.report.background_psnr = water.carry.background_psnr;
   out.report.bases_per_frame = water.carry.bases_per_frame;
-  out.report.rounds.push_back(
-      {water.carry.psnr, water.light, 0, static_cast<int>(water.model.cables.size())});
+  out.report.rounds.push_back({water.carry.psnr, water.light, 0, static_cast<int>(water.model.cables.size())});
   out.model = std::move(water.model);
   out.model.seed = options.seed;
   return out;

@@ -40,10 +40,11 @@ struct LearnTexturedMotionOptions {
                 "for a moving camera), flat (one level, as in the paper); auto: median or smooth"},
           self.background, Choices{{"auto", "median", "low", "smooth", "flat"}});
     visit(Field{"coils", "", "the weaker bases around each core too"}, self.coils, Range{});
-    visit(Field{"tracking", "",
-                "cores: elements that can be told apart; carry: bases carried forward in time, for falling water; auto: "
-                "by how the light of the clip goes up and down"},
-          self.tracking, Choices{{"auto", "cores", "carry"}});
+    visit(
+        Field{"tracking", "",
+              "cores: elements that can be told apart; carry: bases carried forward in time, for falling water; auto: "
+              "by how the light of the clip goes up and down"},
+        self.tracking, Choices{{"auto", "cores", "carry"}});
   }
 };
 
