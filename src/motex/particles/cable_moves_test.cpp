@@ -255,26 +255,26 @@ class Enumeration {
 class CableMovesToy : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    pictures_ = new std::vector<Plane>(toy_pictures());
-    law_ = new CableLaw(toy_prior(), kFrames);
-    truth_ = new Enumeration(*pictures_, *law_);
-    sparse_law_ = new CableLaw(toy_prior(false), kFrames);
-    sparse_truth_ = new Enumeration(*pictures_, *sparse_law_);
+    toy_images = new std::vector<Plane>(toy_pictures());
+    toy_law = new CableLaw(toy_prior(), kFrames);
+    toy_truth = new Enumeration(*toy_images, *toy_law);
+    toy_sparse_law = new CableLaw(toy_prior(false), kFrames);
+    toy_sparse_truth = new Enumeration(*toy_images, *toy_sparse_law);
   }
   static void TearDownTestSuite() {
-    delete sparse_truth_;
-    delete sparse_law_;
-    delete truth_;
-    delete law_;
-    delete pictures_;
+    delete toy_sparse_truth;
+    delete toy_sparse_law;
+    delete toy_truth;
+    delete toy_law;
+    delete toy_images;
   }
 
   /// Total variation between visits and posterior, of both kinds of classes together.
   static double distance_of(const std::vector<CableMove>& moves) {
-    CableState state(*pictures_, {}, *law_);
-    PlacesProposal proposal(law_->prior());
-    CableMoves chain(state, *law_, proposal, {0, kFrames}, Rng(11));
-    const double start = log_posterior(state, *law_);
+    CableState state(*toy_images, {}, *toy_law);
+    PlacesProposal proposal(toy_law->prior());
+    CableMoves chain(state, *toy_law, proposal, {0, kFrames}, Rng(11));
+    const double start = log_posterior(state, *toy_law);
     Rng rng(3);
     std::map<std::string, double> visits;
     constexpr int kSteps = 600000;
@@ -283,9 +283,9 @@ class CableMovesToy : public ::testing::Test {
       if (step % 2 != 0) continue;
       for (const std::string& of : classes_of(state.cables())) visits[of] += 2.0 / kSteps;
     }
-    EXPECT_NEAR(chain.log_posterior_change(), log_posterior(state, *law_) - start, 1e-3);
+    EXPECT_NEAR(chain.log_posterior_change(), log_posterior(state, *toy_law) - start, 1e-3);
     double distance = 0;
-    for (const auto& [name, probability] : truth_->classes()) {
+    for (const auto& [name, probability] : toy_truth->classes()) {
       distance += std::abs(probability - visits[name]);
       visits.erase(name);
     }
@@ -303,7 +303,7 @@ class CableMovesToy : public ::testing::Test {
     std::array<std::int64_t, kNumCableJumps> accepted{};
     constexpr int kRestarts = 90000, kMoves = 2;
     for (int restart = 0; restart < kRestarts; ++restart) {
-      CableState state(*pictures_, truth.draw(rng), law);
+      CableState state(*toy_images, truth.draw(rng), law);
       CableMoves chain(state, law, proposal, {0, kFrames}, rng.fork(static_cast<std::uint64_t>(restart)));
       double before = chain.log_posterior_change();
       std::vector<Cable> cables = state.cables();
@@ -346,24 +346,24 @@ class CableMovesToy : public ::testing::Test {
   }
 
   static void expect_balance(CableMove move, std::initializer_list<CableJump> jumps) {
-    EXPECT_LT(imbalance(move, jumps, *law_, *truth_, 100), 4.5);
-    EXPECT_LT(imbalance(move, jumps, *sparse_law_, *sparse_truth_, 0), 4.5);
+    EXPECT_LT(imbalance(move, jumps, *toy_law, *toy_truth, 100), 4.5);
+    EXPECT_LT(imbalance(move, jumps, *toy_sparse_law, *toy_sparse_truth, 0), 4.5);
   }
 
-  static std::vector<Plane>* pictures_;
-  static CableLaw *law_, *sparse_law_;
-  static Enumeration *truth_, *sparse_truth_;
+  static std::vector<Plane>* toy_images;
+  static CableLaw *toy_law, *toy_sparse_law;
+  static Enumeration *toy_truth, *toy_sparse_truth;
 };
-std::vector<Plane>* CableMovesToy::pictures_ = nullptr;
-CableLaw* CableMovesToy::law_ = nullptr;
-CableLaw* CableMovesToy::sparse_law_ = nullptr;
-Enumeration* CableMovesToy::truth_ = nullptr;
-Enumeration* CableMovesToy::sparse_truth_ = nullptr;
+std::vector<Plane>* CableMovesToy::toy_images = nullptr;
+CableLaw* CableMovesToy::toy_law = nullptr;
+CableLaw* CableMovesToy::toy_sparse_law = nullptr;
+Enumeration* CableMovesToy::toy_truth = nullptr;
+Enumeration* CableMovesToy::toy_sparse_truth = nullptr;
 
 TEST_F(CableMovesToy, HasManyStatesOfAllSizes) {
-  EXPECT_GT(truth_->num_states(), 5000u);
+  EXPECT_GT(toy_truth->num_states(), 5000u);
   double empty = 0, full = 0;
-  for (const auto& [name, share] : truth_->classes()) {
+  for (const auto& [name, share] : toy_truth->classes()) {
     if (name.starts_with("counts 000")) empty += share;
     if (name.starts_with("counts 222")) full += share;
   }
