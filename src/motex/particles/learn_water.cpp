@@ -15,7 +15,8 @@ namespace motex {
 namespace {
 
 constexpr int kFewestFrames = 12;
-constexpr double kShown = 0.85;       // share of what moves that bases must show
+constexpr int kFewestToTell = 30;  // in fewer frames whatever passes is there for a good part of the time, as water is
+constexpr double kShown = 0.85;    // share of what moves that bases must show
 constexpr double kMostPeaked = 4.8;   // Σ m₄ / Σ m₂² of water
 constexpr double kLeastSteady = 0.4;  // of the motion of the liveliest third of the clip, in the stillest
 const std::vector<int> kNumbers{200, 400, 800, 1600, 3200};
@@ -138,7 +139,7 @@ double steadiness(const ClipFrames& clip) {
 }  // namespace
 
 bool looks_like_water(const ClipFrames& clip, const JobContext& job) {
-  if (clip.num_frames() < kFewestFrames || peakedness(clip) > kMostPeaked) return false;
+  if (clip.num_frames() < kFewestToTell || peakedness(clip) > kMostPeaked) return false;
   const SteadyClip steady_clip = steady(clip, job);
   return peakedness(steady_clip.clip) <= kMostPeaked && steadiness(steady_clip.clip) >= kLeastSteady;
 }

@@ -6,6 +6,7 @@
 
 #include "motex/core/archive.h"
 #include "motex/core/error.h"
+#include "motex/core/files.h"
 #include "motex/core/rng.h"
 
 namespace motex {
@@ -118,6 +119,20 @@ TEST(TexturedMotionFile, HostileEditsAreErrorsOrModels) {
     }
   }
   EXPECT_GT(num_refused, 300);
+}
+
+/// A file of every format version is kept (tests/old_files); what it held when it was new is what it holds for ever.
+TEST(TexturedMotionFile, ReadsVersionOne) {
+  const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/textured_motion_v1.motex";
+  const TexturedMotion model = load_textured_motion(path);
+  EXPECT_TRUE(textured_motion_bytes(model) == read_file(path));
+  EXPECT_EQ(model.source, "old/scene.mkv");
+  EXPECT_EQ(model.width, 64);
+  EXPECT_EQ(model.num_frames, 12);
+  EXPECT_EQ(model.cables.size(), 10U);
+  ASSERT_EQ(model.dynamics.size(), 1U);
+  EXPECT_NEAR(model.dynamics[0].x.persistence(), 0.7228749640222573, 1e-15);
+  EXPECT_NEAR(model.maps.births_per_frame, 0.36363636363636365, 1e-15);
 }
 
 }  // namespace
