@@ -95,8 +95,7 @@ class ClipCoder {
 
   void code_living(std::int64_t frame) {
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < living_.size(); ++k) {
-      Living one = living_[k];
+    for (Living one : living_) {  // those that go on move forward in the same list
       QuantisedCable& cable = clip_.cables[one.cable];
       const auto idx = static_cast<std::size_t>(frame - cable.first_frame);
       const std::size_t age = static_cast<std::size_t>(std::min(one.age - 1, 7));

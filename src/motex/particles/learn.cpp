@@ -94,7 +94,7 @@ class Learning {
   /// Whether background and cores leave little but noise. Where elements have parts (wings), the jumps, which know
   /// cores alone, would explain the parts by elements of their own.
   bool cores_explain_elements() const {
-    constexpr double kMostMisfit = 1.5;
+    constexpr double kMostMisfit = 1.3;
     const LearnRound& last = learned_.report.rounds.back();
     return 255 * std::pow(10.0, -last.psnr / 20) < kMostMisfit * last.noise;
   }

@@ -45,7 +45,8 @@ inline PlantedMovetons plant_movetons(int num_birds, int winged, int num_frames,
     int state = static_cast<int>(rng.below(3));
     const double scale = rng.uniform(1.8, 2.6), peak = -rng.uniform(60, 90);
     for (int t = 0; t < num_frames; ++t) {
-      const double x = 18 + 110 * (bird % columns) + 70.0 * t / num_frames, y = 15 + 30 * (bird / columns) + 0.3;
+      const int row = bird / columns;
+      const double x = 18 + 110 * (bird % columns) + 70.0 * t / num_frames, y = 15.3 + 30 * row;
       cable.core.push_back(planted_base(BaseKind::kGaussian, x, y, scale, 0, peak));
       const double lift = state == 0 ? -1.6 : state == 1 ? 0 : 1.6;
       for (std::size_t side = 0; side < cable.coils.size(); ++side) {
