@@ -36,6 +36,7 @@ Value report_value(const LearnTexturedMotionReport& report) {
   object["log_posterior_trace"] = Value::List();
   for (const double value : report.log_posterior_trace) object["log_posterior_trace"].append(value);
   object["bases_per_frame"] = report.bases_per_frame;
+  object["expected_wrong_links"] = report.expected_wrong_links;
   return object;
 }
 
@@ -102,7 +103,8 @@ struct Learn {
       rows.push_back({k == 0 ? "linked" : "sampled " + std::to_string(k), fixed(round.psnr, 2), fixed(round.noise, 2),
                       std::to_string(round.num_cables)});
     }
-    return text_table(rows) + moves_table(learned.report.moves);
+    return text_table(rows) + "\nlinks expected wrong  " + fixed(100 * learned.report.expected_wrong_links, 2) +
+           " %\n" + moves_table(learned.report.moves);
   }
 };
 

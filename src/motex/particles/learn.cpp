@@ -59,8 +59,15 @@ class Learning {
     TrackElementsReport report;
     model().cables = track_elements(clip_, luma(background_.still()), 0, {}, part(0.05, 0.4), &report);
     model().flow = report.link.flow.flow;
+    learned_.report.expected_wrong_links = report.link.expected_wrong_share;
     if (model().cables.empty())
       throw InvalidInput("nothing moves in the clip that stands out from its background as an element");
+    if (background_.kind() != BackgroundKind::kSmooth) {  // the elements biased it
+      Plane change = std::move(report.background);
+      const Plane before = luma(background_.still());
+      for (std::size_t i = 0; i < change.values.size(); ++i) change.values[i] -= before.values[i];
+      background_.shift(clip_, change, job_.jobs);
+    }
     add_round(0);
   }
 

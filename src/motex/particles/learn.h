@@ -62,6 +62,7 @@ struct LearnTexturedMotionReport {
   std::vector<MoveCount> moves;    ///< reversible jumps, over all rounds
   std::vector<double> log_posterior_trace;
   double bases_per_frame = 0;
+  double expected_wrong_links = 0;  ///< share of the links from frame to frame, as linking believes; 0 for water
 };
 
 struct LearnedTexturedMotion {
