@@ -57,18 +57,18 @@ double deviation_over_time(const std::vector<Plane>& frames, int x, int y) {
 class WaterTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    clip_ = new ClipFrames(fall(40));
+    water_clip = new ClipFrames(fall(40));
     LearnWaterOptions options;
     options.num_bases = 150;
-    learned_ = new LearnedWater(learn_water(*clip_, options));
+    water_model = new LearnedWater(learn_water(*water_clip, options));
   }
   static void TearDownTestSuite() {
-    delete clip_;
-    delete learned_;
+    delete water_clip;
+    delete water_model;
   }
   static std::vector<Plane> synthesized(int num_frames, std::uint64_t seed) {
-    WaterSource source(learned_->model, {}, seed);
-    WaterPainter painter(learned_->model, learned_->model.background, 1, seed);
+    WaterSource source(water_model->model, {}, seed);
+    WaterPainter painter(water_model->model, water_model->model.background, 1, seed);
     std::vector<Plane> frames;
     MovetonFrame frame;
     Image picture, layer;
@@ -79,20 +79,20 @@ class WaterTest : public ::testing::Test {
     }
     return frames;
   }
-  static ClipFrames* clip_;
-  static LearnedWater* learned_;
+  static ClipFrames* water_clip;
+  static LearnedWater* water_model;
 };
-ClipFrames* WaterTest::clip_ = nullptr;
-LearnedWater* WaterTest::learned_ = nullptr;
+ClipFrames* WaterTest::water_clip = nullptr;
+LearnedWater* WaterTest::water_model = nullptr;
 
 TEST_F(WaterTest, LearnsFlowBasesAndLight) {
-  const TexturedMotion& model = learned_->model;
+  const TexturedMotion& model = water_model->model;
   ASSERT_TRUE(model.water.has_value());
   EXPECT_NEAR(model.water->flow.at(32, 40).y, 4, 0.3);
   EXPECT_NEAR(model.water->flow.at(32, 40).x, 0, 0.3);
-  EXPECT_GT(learned_->carry.mean_life, 4);
-  EXPECT_GT(learned_->carry.psnr, learned_->carry.background_psnr + 6);
-  EXPECT_LT(learned_->light, 4);
+  EXPECT_GT(water_model->carry.mean_life, 4);
+  EXPECT_GT(water_model->carry.psnr, water_model->carry.background_psnr + 6);
+  EXPECT_LT(water_model->light, 4);
 }
 
 TEST_F(WaterTest, SynthesisFallsAsFastAndFlickersAsMuchWhereTheClipDoes) {
@@ -101,7 +101,7 @@ TEST_F(WaterTest, SynthesisFallsAsFastAndFlickersAsMuchWhereTheClipDoes) {
     double water = 0, observed = 0, rock = 0;
     for (const int x : {28, 30, 32, 34, 36}) {
       water += deviation_over_time(frames, x, y);
-      observed += deviation_over_time(clip_->luma, x, y);
+      observed += deviation_over_time(water_clip->luma, x, y);
     }
     for (const int x : {4, 8, 56, 60}) rock += deviation_over_time(frames, x, y);
     EXPECT_NEAR(water / observed, 1, 0.35) << y;
@@ -109,7 +109,7 @@ TEST_F(WaterTest, SynthesisFallsAsFastAndFlickersAsMuchWhereTheClipDoes) {
   }
   std::vector<Plane> residuals = frames;
   for (Plane& plane : residuals)
-    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] -= learned_->model.background[0].values[i];
+    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] -= water_model->model.background[0].values[i];
   EXPECT_NEAR(estimate_flow_field(residuals).at(32, 40).y, 4, 0.4);
 }
 
@@ -120,7 +120,7 @@ TEST_F(WaterTest, SameSeedSameFramesOtherSeedOthers) {
 }
 
 TEST_F(WaterTest, LoopComesBackAndItsEndLeadsToItsBeginning) {
-  WaterSource source(learned_->model, {}, 4, 30);
+  WaterSource source(water_model->model, {}, 4, 30);
   std::vector<Plane> frames;
   MovetonFrame frame;
   BaseRenderer renderer;
@@ -139,7 +139,7 @@ TEST_F(WaterTest, LoopComesBackAndItsEndLeadsToItsBeginning) {
 }
 
 TEST_F(WaterTest, TrackNumbersBelongToOneCableEach) {
-  WaterSource source(learned_->model, {}, 4);
+  WaterSource source(water_model->model, {}, 4);
   MovetonFrame before, now;
   source.next_frame(before);
   int kept = 0;
@@ -158,9 +158,9 @@ TEST_F(WaterTest, TrackNumbersBelongToOneCableEach) {
 }
 
 TEST_F(WaterTest, LayersOverTheBackgroundGiveThePictureAtTwiceTheSize) {
-  WaterSource source(learned_->model, {}, 4);
+  WaterSource source(water_model->model, {}, 4);
   const Planes background{Plane(2 * kWidth, 2 * kHeight, 90)};
-  WaterPainter painter(learned_->model, background, 2, 4);
+  WaterPainter painter(water_model->model, background, 2, 4);
   MovetonFrame frame;
   Image picture, layer;
   source.next_frame(frame);
@@ -173,11 +173,11 @@ TEST_F(WaterTest, LayersOverTheBackgroundGiveThePictureAtTwiceTheSize) {
 
 TEST_F(WaterTest, BadInputIsRefused) {
   EXPECT_THROW(learn_water(fall(5)), InvalidInput);
-  TexturedMotion other = learned_->model;
+  TexturedMotion other = water_model->model;
   other.water.reset();
   EXPECT_THROW(WaterSource(other, {}, 1), InvalidInput);
   EXPECT_THROW(WaterPainter(other, other.background, 1, 1), InvalidInput);
-  EXPECT_THROW(WaterSource(learned_->model, {}, 1, 1), InvalidInput);
+  EXPECT_THROW(WaterSource(water_model->model, {}, 1, 1), InvalidInput);
 }
 
 TEST(Star, FindsTheWeightsOfAKnownProcess) {
