@@ -67,9 +67,11 @@ TEST(ChooseClusters, FindsAsManyAsThereAre) {
   Rng rng(3);
   for (int truth = 1; truth <= 4; ++truth) {
     Matrix points(240, 3);
-    for (Index i = 0; i < points.rows(); ++i)
-      points.row(i) << 4.0 * static_cast<double>(i % truth) + 0.4 * rng.normal(),
-          3.0 * static_cast<double>((i % truth) / 2) + 0.4 * rng.normal(), 0.4 * rng.normal();
+    for (Index i = 0; i < points.rows(); ++i) {
+      const Index which = i % truth, pair = which / 2;
+      points.row(i) << 4.0 * static_cast<double>(which) + 0.4 * rng.normal(),
+          3.0 * static_cast<double>(pair) + 0.4 * rng.normal(), 0.4 * rng.normal();
+    }
     const Clusters found = choose_clusters(points, {});
     EXPECT_EQ(found.num(), truth);
     for (Index i = truth; i < points.rows(); ++i)
@@ -140,8 +142,9 @@ TEST(LearnTemplates, WhatFadesIsNoRepeatingState) {
   for (int c = 0; c < 30; ++c) {  // a tail that vanishes after 10 of 20 frames, once
     Cable cable;
     cable.coils.resize(1);
+    const int row = c / 6;
     for (int t = 0; t < 20; ++t) {
-      cable.core.push_back(planted_base(BaseKind::kGaussian, 20.0 + 60 * (c % 6), 20.0 + 60 * (c / 6), 2, 0, 80));
+      cable.core.push_back(planted_base(BaseKind::kGaussian, 20.0 + 60 * (c % 6), 20.0 + 60 * row, 2, 0, 80));
       cable.coils[0].push_back(planted_base(BaseKind::kGaussian, cable.core.back().x + 4, cable.core.back().y, 2, 0,
                                             (t < 10 ? 60 : 2) + rng.normal()));
     }
@@ -159,8 +162,9 @@ TEST(LearnTemplates, HalfTurnsOfOrientedCoresDoNotMatter) {
     Cable cable;
     cable.coils.resize(1);
     const double angle = rng.uniform(0, 2) + (c % 2) * std::numbers::pi;
+    const int row = c / 6;
     for (int t = 0; t < 6; ++t) {
-      Base core = planted_base(BaseKind::kGaborCos, 20.0 + 60 * (c % 6), 20.0 + 60 * (c / 6), 2, angle, 80);
+      Base core = planted_base(BaseKind::kGaborCos, 20.0 + 60 * (c % 6), 20.0 + 60 * row, 2, angle, 80);
       RelativeBase tail{BaseKind::kGaussian, c % 2 == 0 ? 2.0 : -2.0, 0, 0, 0, {0.5}};
       cable.coils[0].push_back(placed_at(tail, core, 1));
       cable.core.push_back(core);
