@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "motex/people/silhouette.h"
+#include "motex/people/sprite.h"
+
+namespace motex {
+
+/// Pixels of one row that lie side by side with alpha ≥ ½, in pixels of the sprite.
+struct SilhouetteRun {
+  int y = 0;
+  int first = 0, last = 0;  ///< x of both ends
+  int part = 0;
+};
+
+/// A connected part of a silhouette (8 neighbours).
+struct SilhouettePart {
+  BoundingBox box;  ///< pixels of the sprite
+  std::int64_t area = 0;
+};
+
+/// A silhouette taken apart. Kept between frames it allocates nothing.
+struct SilhouetteParts {
+  std::vector<SilhouetteRun> runs;  ///< from the top, from the left
+  std::vector<SilhouettePart> parts;
+  std::int64_t area = 0;  ///< of all parts
+
+  /// Index of the largest; −1 without any.
+  int largest() const;
+  /// Smaller than 1/400 of the largest or than 4 pixels: noise of the matte, not a hand.
+  bool is_speck(int part) const;
+
+  std::vector<int> parents;          ///< scratch of find_parts
+  std::vector<std::uint8_t> alphas;  ///< scratch: one row
+};
+
+/// Parts are numbered in the order of their first pixel, row by row. Cost: about 1 ns a pixel.
+void find_parts(const Sprite& sprite, SilhouetteParts& parts);
+
+}  // namespace motex
