@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 namespace motex {
 namespace {
@@ -15,16 +16,16 @@ namespace {
 struct RawMoments {
   double m00 = 0, m10 = 0, m01 = 0, m20 = 0, m11 = 0, m02 = 0, m30 = 0, m21 = 0, m12 = 0, m03 = 0;
 
-  /// Adds a row at height y with Σ α, Σ α x, Σ α x², Σ α x³, `sign` times.
-  void add_row(double y, const std::array<double, 4>& row, double sign) {
-    const double s0 = sign * row[0], s1 = sign * row[1], s2 = sign * row[2], s3 = sign * row[3];
+  /// Adds a row at height y with Σ α, Σ α x, Σ α x², Σ α x³.
+  void add_row(double y, const std::array<double, 4>& row) {
+    const auto [s0, s1, s2, s3] = row;
     m00 += s0, m10 += s1, m20 += s2, m30 += s3;
     m01 += s0 * y, m11 += s1 * y, m21 += s2 * y;
     m02 += s0 * y * y, m12 += s1 * y * y, m03 += s0 * y * y * y;
   }
 };
 
-constexpr int kBlock = 32;  // 31³ and 255 fit 16 bits, so products are summed eight at a time
+constexpr int kBlock = SilhouetteParts::kBlock;  // 31³ and 255 fit 16 bits, so products are summed eight at a time
 
 constexpr std::array<std::int16_t, kBlock> powers(int exponent) {
   std::array<std::int16_t, kBlock> out{};
@@ -37,21 +38,37 @@ constexpr std::array<std::int16_t, kBlock> powers(int exponent) {
 }
 constexpr std::array<std::int16_t, kBlock> kFirst = powers(1), kSecond = powers(2), kThird = powers(3);
 
-/// Σ α x^p, p = 0 … 3, of pixels first … last of a row, x counted from `origin`.
-std::array<double, 4> row_sums(const PremultipliedRgba* row, int first, int last, double origin) {
+/// Σ α j^p, p = 0 … 3, of one block, j = 0 … 31.
+std::array<int, 4> block_sums(const std::uint8_t* alphas) {
+  int s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+  for (std::size_t j = 0; j < kBlock; ++j) {
+    const std::int16_t alpha = alphas[j];
+    s0 += alpha;
+    s1 += alpha * kFirst[j];
+    s2 += alpha * kSecond[j];
+    s3 += alpha * kThird[j];
+  }
+  return {s0, s1, s2, s3};
+}
+
+/// Whether all 32 are that.
+bool all_are(const std::uint8_t* alphas, std::uint64_t eight) {
+  std::array<std::uint64_t, kBlock / 8> words;
+  std::memcpy(words.data(), alphas, kBlock);
+  return words[0] == eight && words[1] == eight && words[2] == eight && words[3] == eight;
+}
+
+/// Σ α x^p, p = 0 … 3, of a row of whole blocks, x counted from `origin`.
+std::array<double, 4> row_sums(const std::uint8_t* row, int width, double origin) {
+  static const std::array<int, 4> kOpaque = [] {
+    std::array<std::uint8_t, kBlock> alphas;
+    alphas.fill(255);
+    return block_sums(alphas.data());
+  }();
   std::array<double, 4> sums{};
-  for (int start = first; start <= last; start += kBlock) {
-    std::array<std::int16_t, kBlock> alphas{};
-    const int count = std::min(kBlock, last - start + 1);
-    for (int j = 0; j < count; ++j) alphas[static_cast<std::size_t>(j)] = row[start + j][3];
-    int s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-    for (std::size_t j = 0; j < kBlock; ++j) {
-      s0 += alphas[j];
-      s1 += alphas[j] * kFirst[j];
-      s2 += alphas[j] * kSecond[j];
-      s3 += alphas[j] * kThird[j];
-    }
-    if (s0 == 0) continue;
+  for (int start = 0; start < width; start += kBlock) {
+    if (all_are(row + start, 0)) continue;
+    const auto [s0, s1, s2, s3] = all_are(row + start, ~std::uint64_t{0}) ? kOpaque : block_sums(row + start);
     const double b = start - origin;  // (b + j)^p by the binomial theorem
     sums[0] += s0;
     sums[1] += s1 + b * s0;
@@ -61,17 +78,20 @@ std::array<double, 4> row_sums(const PremultipliedRgba* row, int first, int last
   return sums;
 }
 
-RawMoments raw_moments(const Sprite& sprite, const SilhouetteParts& parts, double origin_x, double origin_y) {
-  RawMoments raw;
-  for (int y = 0; y < sprite.height; ++y)
-    raw.add_row(y - origin_y, row_sums(&sprite.at(0, y), 0, sprite.width - 1, origin_x), 1);
-  if (parts.parts.size() == 1) return raw;
-  std::vector<char> specks(parts.parts.size());
-  for (std::size_t part = 0; part < specks.size(); ++part) specks[part] = parts.is_speck(static_cast<int>(part));
+/// Takes the specks out of the alphas.
+void clear_specks(SilhouetteParts& parts) {
   for (const SilhouetteRun& run : parts.runs) {
-    if (specks[static_cast<std::size_t>(run.part)] == 0) continue;
-    raw.add_row(run.y - origin_y, row_sums(&sprite.at(0, run.y), run.first, run.last, origin_x), -1);
+    if (!parts.is_speck(run.part)) continue;
+    std::uint8_t* row = parts.alphas.data() + static_cast<std::ptrdiff_t>(run.y) * parts.stride;
+    std::fill(row + run.first, row + run.last + 1, std::uint8_t{0});
   }
+}
+
+RawMoments raw_moments(const SilhouetteParts& parts, int height, double origin_x, double origin_y) {
+  RawMoments raw;
+  for (int y = 0; y < height; ++y)
+    raw.add_row(y - origin_y,
+                row_sums(parts.alphas.data() + static_cast<std::ptrdiff_t>(y) * parts.stride, parts.stride, origin_x));
   return raw;
 }
 
@@ -115,7 +135,8 @@ Silhouette measure_silhouette(const Sprite& sprite, SilhouetteParts& parts) {
   if (parts.parts.empty()) return out;
   out.box = box_without_specks(sprite, parts);
   const double origin_x = std::floor((sprite.width - 1) / 2.0), origin_y = std::floor((sprite.height - 1) / 2.0);
-  const RawMoments raw = raw_moments(sprite, parts, origin_x, origin_y);
+  if (parts.parts.size() > 1) clear_specks(parts);
+  const RawMoments raw = raw_moments(parts, sprite.height, origin_x, origin_y);
   out.area = raw.m00 / 255;
   out.centroid_x = sprite.left + origin_x + raw.m10 / raw.m00;
   out.centroid_y = sprite.top + origin_y + raw.m01 / raw.m00;

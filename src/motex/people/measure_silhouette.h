@@ -13,7 +13,8 @@ namespace motex {
 /// Specks (SilhouetteParts::is_speck) neither widen the box nor count. Empty when no pixel has alpha ≥ ½. Cost: about
 /// 0.1 ms for a person of 200 × 400 pixels. [PT04] section 2.1
 Silhouette measure_silhouette(const Sprite& sprite);
-/// The same with scratch memory kept between frames; `parts` is left holding the sprite's parts.
+/// The same with scratch memory kept between frames; `parts` is left holding the sprite's parts; specks are taken out
+/// of its alphas.
 Silhouette measure_silhouette(const Sprite& sprite, SilhouetteParts& parts);
 
 /// Of the person seen in a mirror at the middle of a frame of that width.

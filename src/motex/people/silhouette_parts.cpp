@@ -22,15 +22,27 @@ int root_of(std::vector<int>& parents, int label) {
   return label;
 }
 
+void copy_alphas(const Sprite& sprite, SilhouetteParts& parts) {
+  constexpr int kBlock = SilhouetteParts::kBlock;
+  parts.stride = (sprite.width + kBlock - 1) / kBlock * kBlock;
+  parts.alphas.resize(static_cast<std::size_t>(parts.stride) * static_cast<std::size_t>(sprite.height));
+  for (int y = 0; y < sprite.height; ++y) {
+    const PremultipliedRgba* row = &sprite.at(0, y);
+    std::uint8_t* to = parts.alphas.data() + static_cast<std::ptrdiff_t>(y) * parts.stride;
+    for (int x = 0; x < sprite.width; ++x) to[x] = row[x][3];
+    std::fill(to + sprite.width, to + parts.stride, std::uint8_t{0});
+  }
+}
+
 /// First x ≥ from whose alpha is ≥ ½ (wanted = kTopBits) or below (wanted = 0), eight pixels at a time.
-int next_change(const std::vector<std::uint8_t>& alphas, int from, int width, std::uint64_t wanted) {
+int next_change(const std::uint8_t* alphas, int from, int width, std::uint64_t wanted) {
   int x = from;
   for (; x + 8 <= width; x += 8) {
     std::uint64_t eight;
-    std::memcpy(&eight, alphas.data() + x, sizeof eight);
+    std::memcpy(&eight, alphas + x, sizeof eight);
     if ((eight & kTopBits) != (wanted ^ kTopBits)) break;
   }
-  while (x < width && (alphas[static_cast<std::size_t>(x)] >= 128) != (wanted != 0)) ++x;
+  while (x < width && (alphas[x] >= 128) != (wanted != 0)) ++x;
   return x;
 }
 
@@ -52,17 +64,15 @@ void join_rows(SilhouetteParts& parts, std::size_t above, std::size_t begin) {
 /// Runs with labels of their own that `parents` joins.
 void find_runs(const Sprite& sprite, SilhouetteParts& parts) {
   parts.runs.clear(), parts.parents.clear();
-  parts.alphas.resize(static_cast<std::size_t>(sprite.width));
   std::size_t above = 0;
   for (int y = 0; y < sprite.height; ++y) {
-    const PremultipliedRgba* row = &sprite.at(0, y);
-    for (int x = 0; x < sprite.width; ++x) parts.alphas[static_cast<std::size_t>(x)] = row[x][3];
+    const std::uint8_t* row = parts.alphas.data() + static_cast<std::ptrdiff_t>(y) * parts.stride;
     const std::size_t begin = parts.runs.size();
-    for (int x = next_change(parts.alphas, 0, sprite.width, kTopBits); x < sprite.width;) {
-      const int end = next_change(parts.alphas, x, sprite.width, 0), label = static_cast<int>(parts.parents.size());
+    for (int x = next_change(row, 0, sprite.width, kTopBits); x < sprite.width;) {
+      const int end = next_change(row, x, sprite.width, 0), label = static_cast<int>(parts.parents.size());
       parts.parents.push_back(label);
       parts.runs.push_back({y, x, end - 1, label});
-      x = next_change(parts.alphas, end, sprite.width, kTopBits);
+      x = next_change(row, end, sprite.width, kTopBits);
     }
     join_rows(parts, above, begin);
     above = begin;
@@ -71,25 +81,19 @@ void find_runs(const Sprite& sprite, SilhouetteParts& parts) {
 
 }  // namespace
 
-int SilhouetteParts::largest() const {
-  const auto most = std::max_element(parts.begin(), parts.end(),
-                                     [](const SilhouettePart& a, const SilhouettePart& b) { return a.area < b.area; });
-  return most == parts.end() ? -1 : static_cast<int>(most - parts.begin());
-}
-
 bool SilhouetteParts::is_speck(int part) const {
-  const std::int64_t most = parts[static_cast<std::size_t>(largest())].area;
   const std::int64_t own = parts[static_cast<std::size_t>(part)].area;
-  return own != most && (own < kSmallestPart || own * kSpeckShare < most);
+  return own != largest_area && (own < kSmallestPart || own * kSpeckShare < largest_area);
 }
 
 void find_parts(const Sprite& sprite, SilhouetteParts& parts) {
   parts.parts.clear();
-  parts.area = 0;
+  parts.area = parts.largest_area = 0;
   if (sprite.empty()) {
     parts.runs.clear();
     return;
   }
+  copy_alphas(sprite, parts);
   find_runs(sprite, parts);
   // The root of a part is its first run, so parts get their numbers as the runs go by.
   for (SilhouetteRun& run : parts.runs) {
@@ -106,6 +110,7 @@ void find_parts(const Sprite& sprite, SilhouetteParts& parts) {
     part.area += run.last - run.first + 1;
     parts.area += run.last - run.first + 1;
   }
+  for (const SilhouettePart& part : parts.parts) parts.largest_area = std::max(parts.largest_area, part.area);
 }
 
 }  // namespace motex

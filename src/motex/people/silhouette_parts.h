@@ -27,15 +27,16 @@ struct SilhouettePart {
 struct SilhouetteParts {
   std::vector<SilhouetteRun> runs;  ///< from the top, from the left
   std::vector<SilhouettePart> parts;
-  std::int64_t area = 0;  ///< of all parts
+  std::int64_t area = 0;          ///< of all parts
+  std::int64_t largest_area = 0;  ///< of the largest part
 
-  /// Index of the largest; −1 without any.
-  int largest() const;
   /// Smaller than 1/400 of the largest or than 4 pixels: noise of the matte, not a hand.
   bool is_speck(int part) const;
 
+  static constexpr int kBlock = 32;  ///< rows of `alphas` are filled up with 0 to a whole number of blocks
+  int stride = 0;                    ///< of a row, a multiple of kBlock
+  std::vector<std::uint8_t> alphas;  ///< of the sprite, row by row
   std::vector<int> parents;          ///< scratch of find_parts
-  std::vector<std::uint8_t> alphas;  ///< scratch: one row
 };
 
 /// Parts are numbered in the order of their first pixel, row by row. Cost: about 1 ns a pixel.
