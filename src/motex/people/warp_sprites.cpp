@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/people/warp_sprites.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "motex/core/error.h"
+#include "motex/core/parallel.h"
+#include "motex/core/wide.h"
+
+namespace motex {
+
+namespace warp_rows {
+
+constexpr int kChunk = 64;  // pixels worked on at a time
+constexpr int kRowsPerTask = 32;
+
+/// A sprite with a transparent border of one pixel (two to the right and below), so that every place can be looked up.
+struct Bordered {
+  int width = 0, height = 0;  // without the border
+  std::size_t stride = 0;
+  std::vector<std::uint32_t> pixels;
+
+  explicit Bordered(const Sprite& sprite) : width(sprite.width), height(sprite.height) {
+    stride = static_cast<std::size_t>(width) + 3;
+    pixels.assign(stride * (static_cast<std::size_t>(height) + 3), 0);
+    for (int y = 0; y < height; ++y)
+      std::memcpy(&pixels[(static_cast<std::size_t>(y) + 1) * stride + 1], &sprite.at(0, y),
+                  static_cast<std::size_t>(width) * sizeof(std::uint32_t));
+  }
+};
+
+/// Places in a sprite, a chunk of pixels long, and the four pixels around each.
+struct Chunk {
+  std::array<float, kChunk> x{}, y{};    // place in the sprite
+  std::array<float, kChunk> fx{}, fy{};  // within the square of four pixels
+  std::array<std::int32_t, kChunk> first{};
+  std::array<std::array<std::uint32_t, kChunk>, 4> corner{};
+};
+
+/// Displacements of one row of pixels: between two rows of the grid, still at the grid's columns.
+struct GridRow {
+  std::vector<float> x, y;
+
+  GridRow(const WarpGrid& grid, int row_of_pixels) {
+    const int above = std::min(row_of_pixels / grid.spacing, grid.rows - 2);
+    const float share = static_cast<float>(row_of_pixels - above * grid.spacing) / static_cast<float>(grid.spacing);
+    x.resize(static_cast<std::size_t>(grid.columns)), y.resize(x.size());
+    for (int c = 0; c < grid.columns; ++c) {
+      const std::size_t i = grid.index(c, above), below = grid.index(c, above + 1), out = static_cast<std::size_t>(c);
+      x[out] = grid.x[i] + (grid.x[below] - grid.x[i]) * share;
+      y[out] = grid.y[i] + (grid.y[below] - grid.y[i]) * share;
+    }
+  }
+};
+
+/// Film → sprite: s · p + t.
+struct ToSprite {
+  float scale, x, y;
+};
+
+inline void find_places(const GridRow& row, int spacing, int first, int count, int left, float film_y,
+                        const ToSprite& to, Chunk& chunk) {
+  for (int i = 0; i < count;) {
+    const int column = std::min((first + i) / spacing, static_cast<int>(row.x.size()) - 2);
+    const int within = first + i - column * spacing, n = std::min(spacing - within, count - i);
+    const int run = n > 0 ? n : count - i;  // beyond the last grid point its last piece goes on
+    const auto c = static_cast<std::size_t>(column);
+    const float x0 = row.x[c], step_x = (row.x[c + 1] - x0) / static_cast<float>(spacing);
+    const float y0 = row.y[c], step_y = (row.y[c + 1] - y0) / static_cast<float>(spacing);
+    for (int j = 0; j < run; ++j) {
+      const auto at = static_cast<std::size_t>(i + j);
+      const auto k = static_cast<float>(within + j);
+      chunk.x[at] = (static_cast<float>(left + first + i + j) + x0 + step_x * k) * to.scale + to.x;
+      chunk.y[at] = (film_y + y0 + step_y * k) * to.scale + to.y;
+    }
+    i += run;
+  }
+}
+
+/// Rounds down without a library call: places are ≥ −1.
+inline void find_squares(const Bordered& sprite, int count, Chunk& chunk) {
+  const auto right = static_cast<float>(sprite.width), bottom = static_cast<float>(sprite.height);
+  const auto stride = static_cast<std::int32_t>(sprite.stride);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const float x = std::min(std::max(chunk.x[i], -1.0F), right) + 1;
+    const float y = std::min(std::max(chunk.y[i], -1.0F), bottom) + 1;
+    const auto ix = static_cast<std::int32_t>(x), iy = static_cast<std::int32_t>(y);
+    chunk.fx[i] = x - static_cast<float>(ix);
+    chunk.fy[i] = y - static_cast<float>(iy);
+    chunk.first[i] = iy * stride + ix;
+  }
+}
+
+/// Whether any of the pixels looked up is not transparent.
+inline bool look_up(const Bordered& sprite, int count, Chunk& chunk) {
+  const std::uint32_t* pixels = sprite.pixels.data();
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const std::uint32_t* p = pixels + chunk.first[i];
+    chunk.corner[0][i] = p[0];
+    chunk.corner[1][i] = p[1];
+    chunk.corner[2][i] = p[sprite.stride];
+    chunk.corner[3][i] = p[sprite.stride + 1];
+    any |= p[0] | p[1] | p[sprite.stride] | p[sprite.stride + 1];
+  }
+  return any != 0;
+}
+
+inline float channel(std::uint32_t pixel, int shift) {
+  return static_cast<float>(static_cast<std::int32_t>((pixel >> shift) & 0xFFU));
+}
+
+inline float interpolated(const Chunk& chunk, std::size_t i, int shift) {
+  const float a = channel(chunk.corner[0][i], shift), b = channel(chunk.corner[1][i], shift);
+  const float c = channel(chunk.corner[2][i], shift), d = channel(chunk.corner[3][i], shift);
+  const float above = a + (b - a) * chunk.fx[i], below = c + (d - c) * chunk.fx[i];
+  return above + (below - above) * chunk.fy[i];
+}
+
+inline void mix_chunks(const Chunk& a, const Chunk& b, float weight, int count, std::uint32_t* out) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    std::uint32_t pixel = 0;
+    for (int shift = 0; shift < 32; shift += 8) {
+      const float va = interpolated(a, i, shift), vb = interpolated(b, i, shift);
+      pixel |= static_cast<std::uint32_t>(static_cast<std::int32_t>(va + (vb - va) * weight + 0.5F)) << shift;
+    }
+    out[i] = pixel;
+  }
+}
+
+struct Side {
+  Bordered sprite;
+  ToSprite to;
+  const WarpGrid& warp;
+};
+
+Side side_of(const WarpedSprite& warped) {
+  const double scale = 1 / warped.placement.scale;
+  return {Bordered(warped.sprite),
+          {static_cast<float>(scale), static_cast<float>(-warped.placement.x * scale - warped.sprite.left),
+           static_cast<float>(-warped.placement.y * scale - warped.sprite.top)},
+          warped.warp};
+}
+
+MOTEX_WIDE void dissolve_row(const Side& a, const Side& b, float weight, const BoundingBox& box, int y,
+                             std::uint32_t* out) {
+  const GridRow row_a(a.warp, y), row_b(b.warp, y);
+  const auto film_y = static_cast<float>(box.top + y);
+  Chunk chunk_a, chunk_b;
+  for (int first = 0; first < box.width(); first += kChunk) {
+    const int count = std::min(kChunk, box.width() - first);
+    find_places(row_a, a.warp.spacing, first, count, box.left, film_y, a.to, chunk_a);
+    find_places(row_b, b.warp.spacing, first, count, box.left, film_y, b.to, chunk_b);
+    find_squares(a.sprite, count, chunk_a);
+    find_squares(b.sprite, count, chunk_b);
+    const bool any_a = look_up(a.sprite, count, chunk_a), any_b = look_up(b.sprite, count, chunk_b);
+    if (any_a || any_b) mix_chunks(chunk_a, chunk_b, weight, count, out + first);
+  }
+}
+
+bool covers(const WarpGrid& grid, const BoundingBox& box) {
+  return grid.left == box.left && grid.top == box.top && grid.columns >= 2 && grid.rows >= 2 &&
+         (grid.columns - 1) * grid.spacing >= box.width() - 1 && (grid.rows - 1) * grid.spacing >= box.height() - 1;
+}
+
+}  // namespace warp_rows
+
+bool Placement::is_whole_pixels() const { return scale == 1 && x == std::round(x) && y == std::round(y); }
+
+BoundingBox box_of(const Sprite& sprite, const Placement& placement) {
+  if (sprite.empty()) return {};
+  const auto at = [&](int place, double offset) { return placement.scale * place + offset; };
+  return {static_cast<int>(std::floor(at(sprite.left, placement.x))),
+          static_cast<int>(std::floor(at(sprite.top, placement.y))),
+          static_cast<int>(std::ceil(at(sprite.left + sprite.width - 1, placement.x))),
+          static_cast<int>(std::ceil(at(sprite.top + sprite.height - 1, placement.y)))};
+}
+
+BoundingBox joined(const BoundingBox& a, const BoundingBox& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
+Sprite dissolved(const WarpedSprite& a, const WarpedSprite& b, double weight, const BoundingBox& box, int jobs) {
+  using namespace warp_rows;
+  if (box.empty()) return {};
+  if (!covers(a.warp, box) || !covers(b.warp, box) || a.warp.spacing != b.warp.spacing)
+    throw InvalidInput("the grids of a dissolve must cover the rectangle that is drawn");
+  Sprite out;
+  out.left = box.left, out.top = box.top, out.width = box.width(), out.height = box.height();
+  out.pixels.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), {});
+  const Side side_a = side_of(a), side_b = side_of(b);
+  const int num_tasks = (out.height + kRowsPerTask - 1) / kRowsPerTask;
+  parallel_for(jobs, num_tasks, [&](int task) {
+    std::vector<std::uint32_t> row(static_cast<std::size_t>(out.width));
+    for (int y = task * kRowsPerTask; y < std::min(out.height, (task + 1) * kRowsPerTask); ++y) {
+      std::fill(row.begin(), row.end(), 0);
+      dissolve_row(side_a, side_b, static_cast<float>(weight), box, y, row.data());
+      std::memcpy(&out.at(0, y), row.data(), row.size() * sizeof(std::uint32_t));
+    }
+  });
+  return out;
+}
+
+}  // namespace motex
