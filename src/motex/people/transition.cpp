@@ -6,6 +6,7 @@
 
 #include "motex/people/align_sprites.h"
 #include "motex/people/field_morph.h"
+#include "motex/people/flow_warp.h"
 
 namespace motex {
 
@@ -30,7 +31,8 @@ std::vector<FeatureLinePair> Transition::lines_of(const Frame& frame) const {
 Sprite Transition::render_with(TransitionRenderer renderer, const Frame& frame, double weight, double dissolve) const {
   const PlacedSprite a{*frame.sprite_a, frame.a.placement}, b{*frame.sprite_b, frame.b.placement};
   std::vector<FeatureLinePair> lines;
-  if (renderer == TransitionRenderer::kFieldMorph) lines = lines_of(frame);
+  if (renderer != TransitionRenderer::kCrossDissolve) lines = lines_of(frame);
+  if (renderer == TransitionRenderer::kFlow) return flow_morph(a, b, sprite_flow(a, b, lines), weight, dissolve, jobs_);
   return field_morph(a, b, lines, weight, dissolve, {}, jobs_);
 }
 
@@ -43,10 +45,12 @@ void Transition::choose() {
   report_.num_lines = static_cast<int>(lines_of(frames_[frames_.size() / 2]).size());
   report_.dissolve_error = error_of(TransitionRenderer::kCrossDissolve);
   report_.morph_error = error_of(TransitionRenderer::kFieldMorph);
+  report_.flow_error = error_of(TransitionRenderer::kFlow);
   report_.renderer = options_.renderer;
   if (options_.renderer != TransitionRenderer::kAuto) return;
   report_.renderer = TransitionRenderer::kFieldMorph;
   double least = report_.morph_error;
+  if (report_.flow_error < least) least = report_.flow_error, report_.renderer = TransitionRenderer::kFlow;
   if (report_.dissolve_error <= least)
     least = report_.dissolve_error, report_.renderer = TransitionRenderer::kCrossDissolve;
   if (least > options_.max_error) report_.renderer = TransitionRenderer::kHardCut;
