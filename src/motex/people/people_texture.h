@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "motex/people/edit_list.h"
 #include "motex/people/motif.h"
 #include "motex/people/silhouette.h"
 
@@ -28,6 +29,7 @@ struct PeopleTexture {
   std::vector<Take> takes;
   std::vector<Silhouette> silhouettes;  ///< one a frame of all takes
   MotifSet alphabet;
+  CutSet cuts;  ///< what films are cut at; empty = not looked for (find_cuts)
 
   int num_frames() const { return static_cast<int>(silhouettes.size()); }
 };

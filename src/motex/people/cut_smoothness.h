@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "motex/people/people_texture.h"
+
+namespace motex {
+
+/// Second differences of area, centroid and aspect, each relative to its 95th percentile inside real footage: 1 = as
+/// sudden as the most sudden twentieth of what the actor did.
+struct CutSmoothness {
+  double area = 0, centroid = 0, aspect = 0;
+  double largest() const;
+};
+
+/// 95th percentiles of |x(t − 1) − 2 x(t) + x(t + 1)| inside takes: area in px², centroid in px (of the two
+/// coordinates' length), aspect. All > 0.
+struct SecondDifferenceScales {
+  double area = 1, centroid = 1, aspect = 1;
+};
+SecondDifferenceScales second_difference_scales(const PeopleTexture& texture);
+
+/// Of a hard cut after which frame `to` follows frame `from`, the larger of the second differences at both. The
+/// centroid is carried over the cut (as films are drawn), so of it only the change of velocity counts. Infinite where a
+/// neighbour lies outside its take or nobody is there.
+CutSmoothness cut_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from, int to);
+
+/// Take of a frame: index in texture.takes by frame. Throws InvalidInput unless takes cover all frames without gaps.
+std::vector<int> take_of_frames(const PeopleTexture& texture);
+
+}  // namespace motex
