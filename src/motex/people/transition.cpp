@@ -10,6 +10,13 @@
 
 namespace motex {
 
+namespace {
+
+/// Shapes set out and arrive gently, so that velocities do not jump; colours follow Figure 6.
+double eased(double weight) { return weight * weight * (3 - 2 * weight); }
+
+}  // namespace
+
 Transition::Transition(const PeopleTexture& texture, std::vector<Frame> frames, const RenderFilmOptions& options,
                        int jobs)
     : texture_(texture), frames_(std::move(frames)), options_(options), jobs_(jobs) {
@@ -61,7 +68,7 @@ Sprite Transition::render(int k) const {
   if (report_.renderer == TransitionRenderer::kHardCut)
     return k < (static_cast<int>(frames_.size()) + 1) / 2 ? placed(*frame.sprite_a, frame.a.placement)
                                                           : placed(*frame.sprite_b, frame.b.placement);
-  return render_with(report_.renderer, frame, frame.weight, frame.weight);
+  return render_with(report_.renderer, frame, eased(frame.weight), frame.weight);
 }
 
 }  // namespace motex
