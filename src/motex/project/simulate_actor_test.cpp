@@ -39,7 +39,7 @@ TEST(SimulateActor, RepetitionsMustFit) {
 }
 
 TEST(SimulateActor, EachActionIsPerformedAsOftenAsAskedAndNeverTwoAtOnce) {
-  SimulateActorOptions options = small(1200);
+  SimulateActorOptions options = small(1800);
   options.repetitions = 3;
   options.persons = 2;
   const ActorSimulation simulation(options);
@@ -49,7 +49,7 @@ TEST(SimulateActor, EachActionIsPerformedAsOftenAsAskedAndNeverTwoAtOnce) {
     ++counts[{one.person, one.action}];
     EXPECT_GE(one.start, ends[one.person] + 5);
     ends[one.person] = one.start + one.length;
-    EXPECT_LE(ends[one.person], 1200);
+    EXPECT_LE(ends[one.person], 1800);
     EXPECT_GE(one.amplitude, 0.9);
     EXPECT_LE(one.amplitude, 1.1);
   }
@@ -108,7 +108,7 @@ TEST(SimulateActor, MatteIsTheUnionOfThePersons) {
 }
 
 TEST(SimulateActor, AMovingBodyIsBlurred) {
-  SimulateActorOptions options = small(90);
+  SimulateActorOptions options = small(150);
   options.actions = "left_kick";
   options.motion_blur = 1;
   const ActorSimulation blurred(options);

@@ -23,9 +23,13 @@ struct SinkShape {
   int width = 0, height = 0;
   double frames_per_sec = 25;
   bool alpha = false;
+  bool for_storage = false;
 };
 
 std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, const SinkShape& shape,
+                                           const JobContext& job);
+/// Into memory: `bytes` is filled by finish() and must live until then. The extension of `name` decides the format.
+std::unique_ptr<FrameSink> make_libav_sink(std::string& bytes, const std::string& name, const SinkShape& shape,
                                            const JobContext& job);
 /// A folder or a pattern with %d; what was written is removed again unless it was finished.
 std::unique_ptr<FrameSink> make_picture_sink(const std::filesystem::path& path, const SinkShape& shape);

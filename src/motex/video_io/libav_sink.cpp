@@ -40,11 +40,13 @@ struct Recipe {
   const char* muxer;
   const char* encoder;
   AVPixelFormat opaque, with_alpha, odd_sized;
-  const char* settings;  ///< of the encoder, "name=value:…"
+  const char* settings;           ///< of the encoder, "name=value:…"
+  const char* storing = nullptr;  ///< the same where frames are stored to be picked out again
 };
 
 constexpr Recipe kRecipes[] = {
-    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P, "crf=16:preset=medium"},
+    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P, "crf=16:preset=medium",
+     "crf=10:preset=veryfast:g=15:aq-mode=0:psy=0"},
     {".webm", "webm", "libvpx-vp9", AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUVA420P, AV_PIX_FMT_NONE,
      "crf=18:b=0:deadline=good:cpu-used=4:auto-alt-ref=0"},
     {".mov", "mov", "prores_ks", AV_PIX_FMT_YUV444P10LE, AV_PIX_FMT_YUVA444P10LE, AV_PIX_FMT_NONE,
@@ -61,16 +63,24 @@ const Recipe& recipe_for(const std::filesystem::path& path) {
   throw UnsupportedFile(path.string() + ": the name of a video ends in .mp4, .webm, .mov, .mkv or .avi");
 }
 
-/// Where the muxer writes: an AtomicFile whose exceptions wait until the C code has returned.
+/// Where the muxer writes: an AtomicFile or memory. Exceptions wait until the C code has returned.
 struct Output {
-  AtomicFile file;
+  std::unique_ptr<AtomicFile> file;  // null: memory
+  std::string bytes;
   std::uint64_t position = 0, size = 0;
   std::exception_ptr failure;
+
+  void put(std::string_view part) {
+    if (file != nullptr) return file->write(part);
+    if (bytes.size() < position + part.size()) bytes.resize(position + part.size());
+    std::copy(part.begin(), part.end(), bytes.begin() + static_cast<std::ptrdiff_t>(position));
+  }
+  bool move_to(std::uint64_t target) { return file != nullptr ? file->seek(target) : target <= bytes.size(); }
 
   static int write(void* opaque, std::uint8_t* bytes, int num_bytes) {
     auto& self = *static_cast<Output*>(opaque);
     try {
-      self.file.write({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(num_bytes)});
+      self.put({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(num_bytes)});
     } catch (...) {
       self.failure = std::current_exception();
       return AVERROR(EIO);
@@ -84,7 +94,7 @@ struct Output {
     if (whence == AVSEEK_SIZE) return static_cast<std::int64_t>(self.size);
     if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(self.position);
     if (whence == SEEK_END) offset += static_cast<std::int64_t>(self.size);
-    if (offset < 0 || !self.file.seek(static_cast<std::uint64_t>(offset))) return AVERROR(EINVAL);
+    if (offset < 0 || !self.move_to(static_cast<std::uint64_t>(offset))) return AVERROR(EINVAL);
     self.position = static_cast<std::uint64_t>(offset);
     return offset;
   }
@@ -96,8 +106,10 @@ struct FormatCloser {
 
 class LibavSink : public FrameSink {
  public:
-  LibavSink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job)
-      : path_(path), shape_(shape), job_(job), recipe_(recipe_for(path)), output_{AtomicFile(path), 0, 0, nullptr} {
+  /// bytes: null = a file.
+  LibavSink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job, std::string* bytes)
+      : path_(path), shape_(shape), job_(job), recipe_(recipe_for(path)), bytes_(bytes) {
+    if (bytes == nullptr) output_.file = std::make_unique<AtomicFile>(path);
     silence();
     format_of_pixels_ = shape.alpha ? recipe_.with_alpha : recipe_.opaque;
     if (format_of_pixels_ == AV_PIX_FMT_NONE)
@@ -131,7 +143,10 @@ class LibavSink : public FrameSink {
     check(av_write_trailer(muxer_.get()), "the end of the file");
     avio_flush(io_.get());
     if (output_.failure) std::rethrow_exception(output_.failure);
-    output_.file.commit();
+    if (bytes_ != nullptr)
+      *bytes_ = std::move(output_.bytes);
+    else
+      output_.file->commit();
   }
 
  private:
@@ -163,7 +178,8 @@ class LibavSink : public FrameSink {
     mark_colours();
     AVDictionary* settings = nullptr;
     const bool tiny = std::min(shape_.width, shape_.height) < 16 && is_rgb();  // FFV1 finds no room for slices there
-    av_dict_parse_string(&settings, tiny ? "level=1" : recipe_.settings, "=", ":", 0);
+    const char* text = shape_.for_storage && recipe_.storing != nullptr ? recipe_.storing : recipe_.settings;
+    av_dict_parse_string(&settings, tiny ? "level=1" : text, "=", ":", 0);
     const int code = avcodec_open2(encoder_.get(), encoder, &settings);
     av_dict_free(&settings);
     if (code < 0)
@@ -239,6 +255,7 @@ class LibavSink : public FrameSink {
   SinkShape shape_;
   JobContext job_;
   const Recipe& recipe_;
+  std::string* bytes_;
   Output output_;
   AVPixelFormat format_of_pixels_ = AV_PIX_FMT_NONE;
   Handle<AVIOContext> io_;
@@ -254,7 +271,12 @@ class LibavSink : public FrameSink {
 
 std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, const SinkShape& shape,
                                            const JobContext& job) {
-  return std::make_unique<LibavSink>(path, shape, job);
+  return std::make_unique<LibavSink>(path, shape, job, nullptr);
+}
+
+std::unique_ptr<FrameSink> make_libav_sink(std::string& bytes, const std::string& name, const SinkShape& shape,
+                                           const JobContext& job) {
+  return std::make_unique<LibavSink>(name, shape, job, &bytes);
 }
 
 std::vector<std::string> missing_video_encoders() {

@@ -19,12 +19,16 @@ bool is_for_pictures(const std::filesystem::path& path) {
   return extension == ".png" || extension.empty() || std::filesystem::is_directory(path);
 }
 
-std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job) {
+void check_shape(const std::filesystem::path& path, const SinkShape& shape) {
   if (shape.width < 1 || shape.height < 1 || shape.width > kMaxSide || shape.height > kMaxSide)
     throw InvalidInput(path.string() + ": a video of " + size_text(shape.width, shape.height) +
                        " pixels cannot be written; sides go from 1 to " + std::to_string(kMaxSide));
   if (!std::isfinite(shape.frames_per_sec) || shape.frames_per_sec < 0.01 || shape.frames_per_sec > 1000)
     throw InvalidInput(path.string() + ": frames per second must be 0.01 … 1000");
+}
+
+std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job) {
+  check_shape(path, shape);
   return is_for_pictures(path) ? make_picture_sink(path, shape) : make_libav_sink(path, shape, job);
 }
 
@@ -32,11 +36,20 @@ std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const Si
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, int width, int height, const WriteVideoOptions& options,
                          const JobContext& job)
-    : sink_(make_sink(path, {width, height, options.frames_per_sec, options.alpha}, job)),
-      width_(width),
-      height_(height),
-      frames_per_sec_(options.frames_per_sec),
-      job_(job) {}
+    : VideoWriter(make_sink(path, {width, height, options.frames_per_sec, options.alpha, options.for_storage}, job),
+                  width, height, options.frames_per_sec, job) {}
+
+VideoWriter::VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height, double frames_per_sec,
+                         const JobContext& job)
+    : sink_(std::move(sink)), width_(width), height_(height), frames_per_sec_(frames_per_sec), job_(job) {}
+
+VideoWriter VideoWriter::to_bytes(std::string& bytes, const std::string& extension, int width, int height,
+                                  const WriteVideoOptions& options, const JobContext& job) {
+  const SinkShape shape{width, height, options.frames_per_sec, options.alpha, options.for_storage};
+  const std::string name = "video in memory" + extension;
+  check_shape(name, shape);
+  return {make_libav_sink(bytes, name, shape, job), width, height, options.frames_per_sec, job};
+}
 
 VideoWriter::~VideoWriter() = default;
 VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;

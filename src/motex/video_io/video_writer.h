@@ -18,6 +18,9 @@ class FrameSink;
 struct WriteVideoOptions {
   double frames_per_sec = 25;  ///< for frames that are written without a time, and what the header says
   bool alpha = false;          ///< keep alpha: .mov, .webm, .mkv, pictures; elsewhere InvalidInput
+  /// .mp4: for frames that are picked out again and worked on: a key frame every 15 frames, the smallest error rather
+  /// than the best look, finer quality (crf 10).
+  bool for_storage = false;
 };
 
 /// Writes a video frame by frame. The file appears under its name when finish() returns, and never otherwise.
@@ -38,6 +41,9 @@ class VideoWriter {
   /// Throws InvalidInput: unknown extension, alpha where there is none, sizes outside 1 … 16384 (MP4: from 2).
   VideoWriter(const std::filesystem::path& path, int width, int height, const WriteVideoOptions& options = {},
               const JobContext& job = {});
+  /// A file in memory: `bytes` holds it after finish() and must live until then. extension: ".mp4", …, no pictures.
+  static VideoWriter to_bytes(std::string& bytes, const std::string& extension, int width, int height,
+                              const WriteVideoOptions& options = {}, const JobContext& job = {});
   ~VideoWriter();
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;
@@ -50,6 +56,7 @@ class VideoWriter {
   void finish();
 
  private:
+  VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height, double frames_per_sec, const JobContext& job);
   std::unique_ptr<FrameSink> sink_;
   int width_, height_;
   double frames_per_sec_, last_secs_ = -1;
