@@ -18,15 +18,11 @@ struct CableCounts {
   double mean_life = 0;
 };
 
-bool is_inside(const TexturedMotion& model, const Base& base) {
-  return base.x >= -0.5 && base.y >= -0.5 && base.x < model.width - 0.5 && base.y < model.height - 0.5;
-}
-
 CableCounts count(const TexturedMotion& model) {
   CableCounts counts;
   for (const Cable& cable : model.cables)
     for (const Base& base : cable.core)
-      if (is_inside(model, base)) {
+      if (is_inside(base.x, base.y, model.width, model.height)) {
         ++counts.elements;
         counts.bases += 1 + static_cast<std::int64_t>(cable.coils.size());
       }

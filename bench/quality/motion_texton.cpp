@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "bench/motion_data.h"
+#include "motex/core/quantile.h"
 #include "motex/motion/measures.h"
-#include "motex/motion/quantile.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/texton_edit.h"
 #include "motex/motion_texture/texton_stretch.h"

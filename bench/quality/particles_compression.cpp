@@ -29,7 +29,7 @@ double mean_psnr(const ClipFrames& clip, const Planes& background, const std::ve
   double sum = 0;
   for (int t = 0; t < clip.num_frames(); ++t)
     sum += psnr(reconstruct(bases_in_frame(cables, t, clip.width, clip.height, clip.num_planes()), background),
-                planes_of_frame(clip, t));
+                frame_planes(clip, t));
   return sum / clip.num_frames();
 }
 
@@ -39,7 +39,7 @@ double decoded_psnr(const ClipFrames& clip, const std::string& bytes) {
   const std::vector<Cable> cables = dequantised_cables(back);
   double sum = 0;
   for (int t = 0; t < clip.num_frames(); ++t)
-    sum += psnr(to_planes(to_image(decoded_frame(back, cables, t)), clip.num_planes()), planes_of_frame(clip, t));
+    sum += psnr(to_planes(to_image(decoded_frame(back, cables, t)), clip.num_planes()), frame_planes(clip, t));
   return sum / clip.num_frames();
 }
 

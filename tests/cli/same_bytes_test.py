@@ -9,7 +9,23 @@ from pathlib import Path
 from command import CLIPS, MOTEX, CommandTest
 
 
-class SameBytes(CommandTest):
+class MadeTwice:
+    """made() twice."""
+
+    def assert_same(self, a, b):
+        self.assertEqual(set(a), set(b))
+        for name in sorted(a):
+            self.assertTrue(a[name] == b[name], f"{name} differs")
+
+    def test_other_compiler(self):
+        other = os.environ.get("MOTEX_OTHER_COMPILER", "")
+        if not Path(other).is_file():
+            self.assertFalse(os.environ.get("MOTEX_REQUIRE_ALL"), f"no command of the other compiler at '{other}'")
+            self.skipTest("build it with: scripts/build clang motex_cli")
+        self.assert_same(self.made("first"), self.made("second", binary=other))
+
+
+class SameBytes(MadeTwice, CommandTest):
     def made(self, name, binary=MOTEX, jobs=1, seed=5, learn_options=()):
         """Bytes of the model and of what it dances, as BVH and GLB."""
         folder = self.folder / name
@@ -21,11 +37,6 @@ class SameBytes(CommandTest):
             self.succeed("motion", "synthesize", model, *arguments, binary=binary)
         return {path.name: path.read_bytes() for path in folder.iterdir()}
 
-    def assert_same(self, a, b):
-        self.assertEqual(set(a), set(b))
-        for name in sorted(a):
-            self.assertTrue(a[name] == b[name], f"{name} differs")
-
     def test_again_and_with_two_threads(self):
         self.assert_same(self.made("first"), self.made("second", jobs=2))
 
@@ -36,15 +47,8 @@ class SameBytes(CommandTest):
     def test_another_seed_dances_otherwise(self):
         self.assertNotEqual(self.made("first")["dance.bvh"], self.made("second", seed=6)["dance.bvh"])
 
-    def test_other_compiler(self):
-        other = os.environ.get("MOTEX_OTHER_COMPILER", "")
-        if not Path(other).is_file():
-            self.assertFalse(os.environ.get("MOTEX_REQUIRE_ALL"), f"no command of the other compiler at '{other}'")
-            self.skipTest("build it with: scripts/build clang motex_cli")
-        self.assert_same(self.made("first"), self.made("second", binary=other))
 
-
-class SameParticles(CommandTest):
+class SameParticles(MadeTwice, CommandTest):
     def made(self, name, binary=MOTEX, jobs=1, seed=5):
         """Bytes of a scene, of the model learned from it and of what that makes."""
         folder = self.folder / name
@@ -61,20 +65,8 @@ class SameParticles(CommandTest):
                 self.succeed("particles", "synthesize", model, *arguments, *common, binary=binary)
         return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
-    def assert_same(self, a, b):
-        self.assertEqual(set(a), set(b))
-        for name in sorted(a):
-            self.assertTrue(a[name] == b[name], f"{name} differs")
-
     def test_with_two_threads(self):
         self.assert_same(self.made("first"), self.made("second", jobs=2))
-
-    def test_other_compiler(self):
-        other = os.environ.get("MOTEX_OTHER_COMPILER", "")
-        if not Path(other).is_file():
-            self.assertFalse(os.environ.get("MOTEX_REQUIRE_ALL"), f"no command of the other compiler at '{other}'")
-            self.skipTest("build it with: scripts/build clang motex_cli")
-        self.assert_same(self.made("first"), self.made("second", binary=other))
 
 
 if __name__ == "__main__":

@@ -12,9 +12,13 @@
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/gemm.h"
+#include "motex/core/job.h"
 #include "motex/core/options_check.h"
 #include "motex/core/parallel.h"
+#include "motex/core/quantile.h"
 #include "motex/core/rng.h"
+#include "motex/core/trimmed.h"
+#include "motex/core/xml_escape.h"
 
 namespace motex {
 namespace {
@@ -156,6 +160,41 @@ TEST(Archive, EveryTruncationAndEveryFlippedByteIsRefused) {
   }
   EXPECT_THROW(ArchiveReader(good, "x", "other", 3), UnsupportedFile);
   EXPECT_THROW(ArchiveReader(good, "x", "toy", 2), UnsupportedFile);
+}
+
+TEST(Quantile, IsLinearBetweenRanks) {
+  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 0), 1);
+  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 0.5), 2.5);
+  EXPECT_DOUBLE_EQ(quantile({4, 1, 3, 2}, 1), 4);
+  EXPECT_THROW(quantile({}, 0.5), InvalidInput);
+}
+
+TEST(Quantile, MedianOfTwoIsTheUpperOne) {
+  EXPECT_DOUBLE_EQ(median({5, 1, 3}), 3);
+  EXPECT_DOUBLE_EQ(median({4, 1, 3, 2}), 3);
+  EXPECT_DOUBLE_EQ(median({}), 0);
+}
+
+TEST(Text, IsTrimmedAndEscaped) {
+  EXPECT_EQ(trimmed(" \ta b\r"), "a b");
+  EXPECT_EQ(trimmed(" \t "), "");
+  EXPECT_EQ(trimmed("\" a \"", " \""), "a");
+  EXPECT_EQ(xml_escaped("a<b>&\"c\"\n"), "a&lt;b&gt;&amp;&quot;c&quot;\xef\xbf\xbd");
+}
+
+TEST(Job, PartTellsItsShareOfTheWhole) {
+  std::vector<double> told;
+  JobContext job;
+  job.on_progress = [&](std::string_view, double fraction) { told.push_back(fraction); };
+  const JobContext part = job.part(0.2, 0.6).part(0.5, 1);
+  part.progress("x", 0);
+  part.progress("x", 1);
+  part.progress("x", 2);
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_NEAR(told[0], 0.4, 1e-12);
+  EXPECT_NEAR(told[1], 0.6, 1e-12);
+  EXPECT_NEAR(told[2], 0.6, 1e-12);
+  JobContext{}.part(0, 1).progress("x", 0.5);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <string>
@@ -31,6 +32,15 @@ struct JobContext {
   }
   void check_cancelled() const {
     if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) throw Cancelled();
+  }
+  /// For a part of the job: what it tells as 0 … 1 is from … to of the whole.
+  JobContext part(double from, double to) const {
+    JobContext out = *this;
+    if (on_progress)
+      out.on_progress = [whole = on_progress, from, to](std::string_view stage, double fraction) {
+        whole(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+      };
+    return out;
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-#include "motex/motion/quantile.h"
+#include "motex/core/quantile.h"
 
 #include <algorithm>
 
@@ -17,6 +17,13 @@ double quantile(std::vector<double> values, double share) {
   if (at + 1 == values.end()) return *at;
   const double above = *std::min_element(at + 1, values.end());
   return *at + (rank - static_cast<double>(below)) * (above - *at);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace motex

@@ -10,4 +10,7 @@ namespace motex {
 /// Needs at least one value. Linear cost.
 double quantile(std::vector<double> values, double share);
 
+/// The middle value, the upper one of two; 0 without any. Linear cost.
+double median(std::vector<double> values);
+
 }  // namespace motex

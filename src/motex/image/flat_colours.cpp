@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "motex/core/error.h"
 #include "motex/image/pyramid.h"
@@ -23,13 +24,12 @@ float squared_distance(const LevelTriple& a, const LevelTriple& b) {
   return sum;
 }
 
-float luma_of(const LevelTriple& c) { return 0.299F * c[0] + 0.587F * c[1] + 0.114F * c[2]; }
-
 std::vector<LevelTriple> luma_quantiles(std::span<const LevelTriple> colours, int count) {
   std::vector<std::size_t> order(colours.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return luma_of(colours[a]) < luma_of(colours[b]); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::apply(luma_of<float>, colours[a]) < std::apply(luma_of<float>, colours[b]);
+  });
   std::vector<LevelTriple> centres;
   for (int k = 0; k < count; ++k) {
     const double at = (k + 0.5) / count * static_cast<double>(order.size());
@@ -93,8 +93,9 @@ std::vector<LevelTriple> palette(std::span<const LevelTriple> colours, std::span
       for (std::size_t k = 0; k < 3; ++k)
         if (sums[c][3] > 0) centres[c][k] = static_cast<float>(sums[c][k] / sums[c][3]);
   }
-  std::stable_sort(centres.begin(), centres.end(),
-                   [](const LevelTriple& a, const LevelTriple& b) { return luma_of(a) < luma_of(b); });
+  std::stable_sort(centres.begin(), centres.end(), [](const LevelTriple& a, const LevelTriple& b) {
+    return std::apply(luma_of<float>, a) < std::apply(luma_of<float>, b);
+  });
   return centres;
 }
 

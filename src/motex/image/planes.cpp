@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "motex/core/error.h"
 
@@ -12,8 +13,6 @@ namespace motex {
 namespace {
 
 std::uint8_t to_byte(float level) { return static_cast<std::uint8_t>(std::clamp(level, 0.0F, 255.0F) + 0.5F); }
-
-float luma_of(float r, float g, float b) { return 0.299F * r + 0.587F * g + 0.114F * b; }
 
 void check_planes(const Planes& planes) {
   if (planes.size() != 1 && planes.size() != 3 && planes.size() != 4)
@@ -91,7 +90,7 @@ Plane luma(const Image& image) {
   Plane out(image.width, image.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const Rgba p = image.pixels[i];
-    out.values[i] = p.r == p.g && p.g == p.b ? p.r : luma_of(p.r, p.g, p.b);
+    out.values[i] = p.r == p.g && p.g == p.b ? p.r : luma_of<float>(p.r, p.g, p.b);
   }
   return out;
 }
@@ -103,6 +102,25 @@ Plane luma(const Planes& planes) {
   for (std::size_t i = 0; i < out.values.size(); ++i)
     out.values[i] = luma_of(planes[0].values[i], planes[1].values[i], planes[2].values[i]);
   return out;
+}
+
+Plane minus(Plane a, const Plane& b) {
+  if (a.width != b.width || a.height != b.height)
+    throw InvalidInput("only planes of one size can be subtracted from one another");
+  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
+  return a;
+}
+
+Planes minus(Planes a, const Planes& b) {
+  if (a.size() != b.size()) throw InvalidInput("only images with as many planes can be subtracted from one another");
+  for (std::size_t k = 0; k < a.size(); ++k) a[k] = minus(std::move(a[k]), b[k]);
+  return a;
+}
+
+double sum_of_squares(const Plane& plane) {
+  double sum = 0;
+  for (const float value : plane.values) sum += static_cast<double>(value) * static_cast<double>(value);
+  return sum;
 }
 
 double psnr(const Plane& a, const Plane& b) {

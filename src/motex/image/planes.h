@@ -46,9 +46,25 @@ Planes to_planes(const Image& image, int num_planes);
 Image to_image(const Planes& planes);
 Image to_image(const Plane& grey);
 
-/// Y' = 0.299 R + 0.587 G + 0.114 B (BT.601), in grey levels.
+/// Y' = 0.299 R + 0.587 G + 0.114 B (BT.601).
+template <typename Number>
+constexpr Number luma_of(Number r, Number g, Number b) {
+  return Number(0.299) * r + Number(0.587) * g + Number(0.114) * b;
+}
+/// That of each pixel, in grey levels.
 Plane luma(const Image& image);
 Plane luma(const Planes& planes);
+
+/// a − b. Throws InvalidInput unless the sizes are equal.
+Plane minus(Plane a, const Plane& b);
+/// Plane by plane. Throws InvalidInput unless there are as many.
+Planes minus(Planes a, const Planes& b);
+/// Σ v² over the pixels.
+double sum_of_squares(const Plane& plane);
+/// Whether a point lies on a pixel of a picture of that size: −½ ≤ x < width − ½.
+inline bool is_inside(double x, double y, int width, int height) {
+  return x >= -0.5 && y >= -0.5 && x < width - 0.5 && y < height - 0.5;
+}
 
 /// 10 log₁₀(255² / mean squared difference) in dB, infinite for equal planes.
 /// Throws InvalidInput when the sizes differ or are zero.

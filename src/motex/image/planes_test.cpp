@@ -96,5 +96,22 @@ TEST(Pyramid, BlurSpreadsAPointToAGaussian) {
   EXPECT_THROW(gaussian_blur(point, -1), InvalidInput);
 }
 
+TEST(Planes, SubtractsPlanesOfOneSize) {
+  const Plane a(3, 2, 7), b(3, 2, 4);
+  EXPECT_EQ(minus(a, b).values, std::vector<float>(6, 3));
+  EXPECT_EQ(minus(Planes{a, b}, Planes{b, b})[1].values, std::vector<float>(6, 0));
+  EXPECT_DOUBLE_EQ(sum_of_squares(a), 6 * 49);
+  EXPECT_THROW(minus(a, Plane(2, 3)), InvalidInput);
+  EXPECT_THROW(minus(Planes{a}, Planes{a, b}), InvalidInput);
+}
+
+TEST(Planes, APointIsInsideOnAPixel) {
+  EXPECT_TRUE(is_inside(-0.5, -0.5, 4, 3));
+  EXPECT_TRUE(is_inside(3.49, 2.49, 4, 3));
+  EXPECT_FALSE(is_inside(3.5, 0, 4, 3));
+  EXPECT_FALSE(is_inside(0, 2.5, 4, 3));
+  EXPECT_FALSE(is_inside(-0.51, 0, 4, 3));
+}
+
 }  // namespace
 }  // namespace motex

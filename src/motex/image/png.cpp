@@ -45,6 +45,22 @@ int paeth(int left, int up, int up_left) {
   return to_up <= to_up_left ? up : up_left;
 }
 
+/// What a filter expects of a sample, from those beside it.
+int predicted(int filter, int left, int up, int up_left) {
+  switch (filter) {
+    case kRowFilterSub:
+      return left;
+    case kRowFilterUp:
+      return up;
+    case kRowFilterAverage:
+      return (left + up) / 2;
+    case kRowFilterPaeth:
+      return paeth(left, up, up_left);
+    default:
+      return 0;
+  }
+}
+
 /// Samples row by row without filter bytes: 1, 3 or 4 a pixel.
 std::string samples_of(const Image& image, std::size_t channels) {
   std::string samples;
@@ -65,12 +81,7 @@ void filter_row(int filter, std::size_t channels, std::string_view above, std::s
     const int left = i < channels ? 0 : static_cast<unsigned char>(row[i - channels]);
     const int up = static_cast<unsigned char>(above[i]);
     const int up_left = i < channels ? 0 : static_cast<unsigned char>(above[i - channels]);
-    int prediction = 0;
-    if (filter == kRowFilterSub) prediction = left;
-    if (filter == kRowFilterUp) prediction = up;
-    if (filter == kRowFilterAverage) prediction = (left + up) / 2;
-    if (filter == kRowFilterPaeth) prediction = paeth(left, up, up_left);
-    out[i] = static_cast<char>(row[i] - prediction);
+    out[i] = static_cast<char>(row[i] - predicted(filter, left, up, up_left));
   }
 }
 
@@ -147,12 +158,7 @@ void unfilter(int filter, std::size_t channels, std::string_view above, char* ro
     const int left = i < channels ? 0 : static_cast<unsigned char>(row[i - channels]);
     const int up = static_cast<unsigned char>(above[i]);
     const int up_left = i < channels ? 0 : static_cast<unsigned char>(above[i - channels]);
-    int prediction = 0;
-    if (filter == kRowFilterSub) prediction = left;
-    if (filter == kRowFilterUp) prediction = up;
-    if (filter == kRowFilterAverage) prediction = (left + up) / 2;
-    if (filter == kRowFilterPaeth) prediction = paeth(left, up, up_left);
-    row[i] = static_cast<char>(row[i] + prediction);
+    row[i] = static_cast<char>(row[i] + predicted(filter, left, up, up_left));
   }
 }
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "motex/core/error.h"
-#include "motex/motion/quantile.h"
+#include "motex/core/quantile.h"
 
 namespace motex {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
+#include "motex/core/quantile.h"
 #include "motex/motion/glitches.h"
-#include "motex/motion/quantile.h"
 #include "motex/motion/window_match.h"
 
 namespace motex {

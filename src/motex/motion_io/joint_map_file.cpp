@@ -6,6 +6,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/trimmed.h"
 
 namespace motex {
 namespace {
@@ -13,11 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 bool is_json(const std::filesystem::path& path) { return path.extension() == ".json" || path.extension() == ".JSON"; }
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
 
 /// The cells of a line; "" within quotes is a quote.
 std::vector<std::string> cells_of(const std::string& line) {
@@ -33,7 +29,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     else
       cells.back() += line[i];
   }
-  for (std::string& cell : cells) cell = trimmed(cell);
+  for (std::string& cell : cells) cell = std::string(trimmed(cell));
   return cells;
 }
 
@@ -42,7 +38,7 @@ JointNamePairs read_csv(std::string_view bytes, const std::string& name) {
   std::int64_t number = 0;
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   while (!bytes.empty()) {
-    const std::string line = trimmed(std::string(bytes.substr(0, bytes.find('\n'))));
+    const std::string line(trimmed(bytes.substr(0, bytes.find('\n'))));
     bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size() - 1) + 1);
     ++number;
     if (line.empty() || line[0] == '#') continue;

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "motex/core/error.h"
+#include "motex/core/trimmed.h"
 
 namespace motex {
 namespace {
@@ -15,16 +16,12 @@ namespace {
 constexpr double kLargestNumber = 1e12;
 constexpr double kBaseBytes = 256e6, kBytesPerByte = 64;
 
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+constexpr std::string_view kSpace = " \t\n\v\f\r";
+
+bool is_space(char c) { return kSpace.find(c) != kSpace.npos; }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_brace(char c) { return c == '{' || c == '}'; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-std::string_view trimmed(std::string_view s) {
-  while (!s.empty() && is_space(s.front())) s.remove_prefix(1);
-  while (!s.empty() && is_space(s.back())) s.remove_suffix(1);
-  return s;
-}
 
 // Numbers too small for a double are zero.
 bool underflows(std::string_view text) { return text.find("e-") != text.npos || text.find("E-") != text.npos; }
@@ -71,14 +68,14 @@ std::string_view TextScanner::word() {
 std::string_view TextScanner::rest_of_line() {
   const std::size_t start = at_;
   while (at_ < text_.size() && !is_line_end(text_[at_]) && text_[at_] != '{') ++at_;
-  return trimmed(text_.substr(start, at_ - start));
+  return trimmed(text_.substr(start, at_ - start), kSpace);
 }
 
 std::string_view TextScanner::next_line() {
   skip_space();
   const std::size_t start = at_;
   while (at_ < text_.size() && !is_line_end(text_[at_])) ++at_;
-  return trimmed(text_.substr(start, at_ - start));
+  return trimmed(text_.substr(start, at_ - start), kSpace);
 }
 
 bool TextScanner::plain_number(double& value) {

@@ -9,6 +9,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/trimmed.h"
 #include "motex/motion_io/markers_io.h"
 #include "motex/motion_io/text_scanner.h"
 
@@ -17,13 +18,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostMarkers = 100'000;
-
-std::string_view trimmed(std::string_view cell) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
-  while (!cell.empty() && blank(cell.front())) cell.remove_prefix(1);
-  while (!cell.empty() && blank(cell.back())) cell.remove_suffix(1);
-  return cell;
-}
+constexpr std::string_view kBlanks = " \t\r\"";  // around a cell
 
 /// Lines with their numbers, cells with the empty ones between.
 class TableScanner {
@@ -51,7 +46,7 @@ class TableScanner {
     std::vector<std::string_view> out;
     for (std::size_t at = 0; at <= line.size();) {
       const std::size_t end = std::min(line.find(separator, at), line.size());
-      out.push_back(trimmed(line.substr(at, end - at)));
+      out.push_back(trimmed(line.substr(at, end - at), kBlanks));
       at = end + 1;
     }
     while (!out.empty() && out.back().empty()) out.pop_back();
@@ -109,7 +104,7 @@ class TrcReader {
 
   void read_header() {
     const std::string_view first = table_.need("PathFileType");
-    const std::string_view start = trimmed(first);
+    const std::string_view start = trimmed(first, kBlanks);
     if (!same_word(start.substr(0, 12), "PathFileType")) table_.fail("a TRC file begins with PathFileType");
     const std::size_t at = first.find_first_of("\t,; ");
     if (first.find('\t') == first.npos && at != first.npos) table_.separator = first[at];

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "motex/core/error.h"
-#include "motex/motion/quantile.h"
+#include "motex/core/quantile.h"
 #include "motex/motion_texture/jumps.h"
 
 namespace motex {

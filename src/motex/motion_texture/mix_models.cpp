@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "motex/core/error.h"
+#include "motex/core/quantile.h"
 #include "motex/motion/unify.h"
 #include "motex/motion_texture/jumps.h"
 #include "motex/motion_texture/model_edits.h"
@@ -95,13 +96,6 @@ void add_names(const MotionTexture& from, const std::vector<int>& number, Motion
 void add_transitions(const MotionTexture& from, const std::vector<int>& number, TransitionMatrix& out) {
   for (const TransitionCount& c : from.transitions.counts())
     if (number[at(c.from)] >= 0 && number[at(c.to)] >= 0) out.add_count(number[at(c.from)], number[at(c.to)], c.count);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// A jump from each example to the nearest one of the other model; instances below num_of_a are a's.

@@ -116,6 +116,25 @@ float inner_product(const BasePatch& patch, const Plane& image) {
   return sum;
 }
 
+double inner_product(const BasePatch& a, const BasePatch& b) {
+  const int left = std::max(a.left, b.left), right = std::min(a.left + a.width, b.left + b.width);
+  const int top = std::max(a.top, b.top), bottom = std::min(a.top + a.height, b.top + b.height);
+  double sum = 0;
+  for (int y = top; y < bottom; ++y) {
+    const float *row_a = a.row(y - a.top) + (left - a.left), *row_b = b.row(y - b.top) + (left - b.left);
+    float row = 0;
+    for (int x = 0; x < right - left; ++x) row += row_a[x] * row_b[x];
+    sum += static_cast<double>(row);
+  }
+  return sum;
+}
+
+double energy_of(const BasePatch& patch) {
+  double energy = 0;
+  for (const float value : patch.values) energy += static_cast<double>(value) * static_cast<double>(value);
+  return energy;
+}
+
 void add_patch(Plane& image, const BasePatch& patch, float weight) {
   for (int y = 0; y < patch.height; ++y) {
     const float* source = patch.row(y);

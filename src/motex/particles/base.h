@@ -68,6 +68,10 @@ BasePatch render_patch(const Base& base, int width, int height);
 
 /// ⟨patch, image⟩ over the patch.
 float inner_product(const BasePatch& patch, const Plane& image);
+/// ⟨a, b⟩ over the pixels that both reach; 0 when there are none.
+double inner_product(const BasePatch& a, const BasePatch& b);
+/// ‖patch‖² over its pixels.
+double energy_of(const BasePatch& patch);
 /// image += weight · patch.
 void add_patch(Plane& image, const BasePatch& patch, float weight);
 

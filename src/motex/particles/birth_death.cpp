@@ -17,10 +17,6 @@ namespace {
 
 constexpr int kVelocitySteps = 3;
 
-bool inside(double x, double y, int width, int height) {
-  return x >= -0.5 && y >= -0.5 && x < width - 0.5 && y < height - 0.5;
-}
-
 CableEnd end_of(const Cable& cable, std::int32_t idx, bool at_birth) {
   const auto last = static_cast<int>(cable.core.size()) - 1;
   const int steps = std::min(last, kVelocitySteps);
@@ -63,7 +59,7 @@ PointCounts occupied(std::span<const Cable> cables, const BirthDeathMaps& maps, 
   for (const Cable& cable : cables) {
     for (std::int64_t t = std::max<std::int64_t>(cable.first_frame, 0); t < std::min(cable.end_frame(), num_frames);
          ++t)
-      if (inside(cable.at(t).x, cable.at(t).y, maps.width, maps.height)) counts.add(cable.at(t).x, cable.at(t).y);
+      if (is_inside(cable.at(t).x, cable.at(t).y, maps.width, maps.height)) counts.add(cable.at(t).x, cable.at(t).y);
   }
   return counts;
 }
@@ -126,7 +122,7 @@ Plane vanishing_hazard(const BirthDeathMaps& maps, std::span<const Cable> cables
                        double prior_elements) {
   PointCounts vanished(maps.width, maps.height);
   for (const CableEnd& death : maps.deaths)
-    if (inside(death.x + death.vx, death.y + death.vy, maps.width, maps.height)) vanished.add(death.x, death.y);
+    if (is_inside(death.x + death.vx, death.y + death.vy, maps.width, maps.height)) vanished.add(death.x, death.y);
   return hazard_of(vanished, occupied(cables, maps, num_frames - 1), maps.bandwidth, prior_elements);
 }
 

@@ -163,7 +163,7 @@ double CableLaw::log_end(const CoreState* before, const CoreState& z, int frame,
   const Line &x = lines_[kCoreX], &y = lines_[kCoreY];
   const double next_x = before == nullptr ? x.a0 * z[kCoreX] + x.c0 : x.a * z[kCoreX] + x.b * (*before)[kCoreX] + x.c;
   const double next_y = before == nullptr ? y.a0 * z[kCoreY] + y.c0 : y.a * z[kCoreY] + y.b * (*before)[kCoreY] + y.c;
-  const bool inside = next_x >= -0.5 && next_x < prior_.width - 0.5 && next_y >= -0.5 && next_y < prior_.height - 0.5;
+  const bool inside = is_inside(next_x, next_y, prior_.width, prior_.height);
   if (goes_on) return inside ? log_go_inside_ : log_go_outside_;
   return inside ? log_die_inside_ : log_die_outside_;
 }

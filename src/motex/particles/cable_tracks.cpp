@@ -6,8 +6,7 @@ namespace motex {
 
 double luma_coefficient(const Base& base, int num_planes) {
   if (num_planes < 3) return static_cast<double>(base.coefficients[0]);
-  return 0.299 * static_cast<double>(base.coefficients[0]) + 0.587 * static_cast<double>(base.coefficients[1]) +
-         0.114 * static_cast<double>(base.coefficients[2]);
+  return luma_of<double>(base.coefficients[0], base.coefficients[1], base.coefficients[2]);
 }
 
 std::vector<Track> tracks_of(const std::vector<Cable>& cables, int num_planes) {

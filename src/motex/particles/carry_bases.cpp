@@ -10,6 +10,7 @@
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/core/parallel.h"
+#include "motex/particles/clip_background.h"
 #include "motex/particles/refine.h"
 
 namespace motex {
@@ -28,18 +29,6 @@ struct CarriedBase {
   double vx = 0, vy = 0;
   int cable = 0;
 };
-
-double dot(const BasePatch& a, const BasePatch& b) {
-  const int left = std::max(a.left, b.left), right = std::min(a.left + a.width, b.left + b.width);
-  const int top = std::max(a.top, b.top), bottom = std::min(a.top + a.height, b.top + b.height);
-  double sum = 0;
-  for (int y = top; y < bottom; ++y) {
-    const float* p = a.row(y - a.top) - a.left;
-    const float* q = b.row(y - b.top) - b.left;
-    for (int x = left; x < right; ++x) sum += static_cast<double>(p[x] * q[x]);
-  }
-  return sum;
-}
 
 double squares_left(Plane image, const std::vector<BasePatch>& patches, const std::vector<float>& coefficients) {
   for (std::size_t j = 0; j < patches.size(); ++j) add_patch(image, patches[j], -coefficients[j]);
@@ -176,7 +165,7 @@ class Carrier {
         if (ended[a] != 0 || ended[b] != 0) continue;
         const double near = 0.7 * std::min(p.scale, q.scale);
         if (std::abs(p.x - q.x) > near || std::abs(p.y - q.y) > near) continue;
-        if (std::abs(dot(carried_[a].patch, carried_[b].patch)) < kAlike) continue;
+        if (std::abs(inner_product(carried_[a].patch, carried_[b].patch)) < kAlike) continue;
         ended[std::abs(p.coefficients[0]) < std::abs(q.coefficients[0]) ? a : b] = 1;
       }
     std::vector<CarriedBase> kept;
@@ -326,14 +315,6 @@ std::vector<Cable> join(const std::vector<Carrier::Path>& back, const std::vecto
 }
 
 }  // namespace
-
-std::vector<Plane> luma_residuals(const ClipFrames& clip, const Planes& background) {
-  const Plane grey = luma(background);
-  std::vector<Plane> out = clip.luma;
-  for (Plane& plane : out)
-    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] -= grey.values[i];
-  return out;
-}
 
 std::vector<Cable> carry_bases(const ClipFrames& clip, const Planes& background, const CarryOptions& options,
                                const JobContext& job) {

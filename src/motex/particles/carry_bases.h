@@ -58,7 +58,5 @@ CarryReport measure_cables(const ClipFrames& clip, const Planes& background, con
 
 /// Core and coil bases of all cables in that frame.
 BaseMap bases_in_frame(const std::vector<Cable>& cables, std::int64_t frame, int width, int height, int num_planes);
-/// Frames minus background, luma.
-std::vector<Plane> luma_residuals(const ClipFrames& clip, const Planes& background);
 
 }  // namespace motex

@@ -9,6 +9,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/particles/clip_background.h"
 
 namespace motex {
 namespace {

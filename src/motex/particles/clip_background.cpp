@@ -14,12 +14,6 @@ namespace {
 
 constexpr int kMostFrames = 61;  // that a background is made from
 
-Plane minus(const Plane& a, const Plane& b) {
-  Plane out = a;
-  for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] -= b.values[i];
-  return out;
-}
-
 /// About kMostFrames of the frames, evenly, the middle one among them.
 std::vector<int> sampled_frames(int num_frames) {
   const int step = std::max(1, (num_frames + kMostFrames - 1) / kMostFrames);
@@ -52,6 +46,14 @@ Planes frame_planes(const ClipFrames& clip, int frame) {
   return clip.colour.empty() ? Planes{clip.luma[t]} : to_planes(clip.colour[t], 3);
 }
 
+std::vector<Plane> luma_residuals(const ClipFrames& clip, const Planes& background, int jobs) {
+  const Plane still = luma(background);
+  std::vector<Plane> out(clip.luma.size());
+  parallel_for(jobs, clip.num_frames(),
+               [&](int t) { out[static_cast<std::size_t>(t)] = minus(clip.luma[static_cast<std::size_t>(t)], still); });
+  return out;
+}
+
 ClipBackground::ClipBackground(const ClipFrames& clip, BackgroundKind kind, const JobContext& job) : kind_(kind) {
   job.progress("background", 0);
   const int middle = clip.num_frames() / 2;
@@ -71,11 +73,14 @@ ClipBackground::ClipBackground(const ClipFrames& clip, BackgroundKind kind, cons
 }
 
 void ClipBackground::update_residuals(const ClipFrames& clip, int jobs) {
+  if (smooth_.empty()) {
+    residuals_ = luma_residuals(clip, still_, jobs);
+    return;
+  }
   residuals_.resize(clip.luma.size());
-  const Plane still = luma(still_);
   parallel_for(jobs, clip.num_frames(), [&](int task) {
     const auto t = static_cast<std::size_t>(task);
-    residuals_[t] = minus(clip.luma[t], smooth_.empty() ? still : smooth_[t]);
+    residuals_[t] = minus(clip.luma[t], smooth_[t]);
   });
 }
 
@@ -114,7 +119,7 @@ void subtract_cables(std::vector<Plane>& residuals, const std::vector<Cable>& ca
 double psnr_of(const std::vector<Plane>& residuals) {
   double sum = 0, count = 0;
   for (const Plane& plane : residuals) {
-    for (const float value : plane.values) sum += static_cast<double>(value) * static_cast<double>(value);
+    sum += sum_of_squares(plane);
     count += static_cast<double>(plane.values.size());
   }
   return 10 * std::log10(255.0 * 255.0 * count / std::max(sum, 1e-300));

@@ -42,6 +42,9 @@ class ClipBackground {
 /// The frame as planes: its colours, or its luma where the clip is grey.
 Planes frame_planes(const ClipFrames& clip, int frame);
 
+/// Frames minus one background, luma.
+std::vector<Plane> luma_residuals(const ClipFrames& clip, const Planes& background, int jobs = 1);
+
 /// residuals, of frames 0 …, minus all bases of the cables, whose first coefficient counts.
 void subtract_cables(std::vector<Plane>& residuals, const std::vector<Cable>& cables, int jobs);
 

@@ -11,6 +11,7 @@
 #include "motex/core/parallel.h"
 #include "motex/particles/cable_tracks.h"
 #include "motex/particles/carry_bases.h"
+#include "motex/particles/clip_background.h"
 #include "motex/particles/clip_codec.h"
 #include "motex/particles/plane_codec.h"
 #include "motex/particles/pursuit.h"
@@ -32,12 +33,6 @@ double squared_error(const Planes& a, const Planes& b) {
       sum += d * d;
     }
   return sum;
-}
-
-Planes minus(Planes a, const Planes& b) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (std::size_t i = 0; i < a[k].values.size(); ++i) a[k].values[i] -= b[k].values[i];
-  return a;
 }
 
 Planes nothing(Planes like) {
@@ -110,7 +105,7 @@ class Quantiser {
       const int frame = static_cast<int>((k + 0.5) * static_cast<double>(out_.num_frames) / num_seen);
       const BaseMap map = bases_in_frame(cables_, frame, out_.width, out_.height, out_.num_planes);
       num_bases += static_cast<double>(map.bases.size());
-      if (clip_ != nullptr) error += squared_error(reconstruct(map, background_), planes_of_frame(*clip_, frame));
+      if (clip_ != nullptr) error += squared_error(reconstruct(map, background_), frame_planes(*clip_, frame));
     }
     error /= out_.num_planes;
     num_bases = std::max(1.0, num_bases);
@@ -212,7 +207,7 @@ class Quantiser {
       const QuantisedPath& path = path_at(slot);
       map.bases.push_back(dequantised(out_, path, path.states[slot.idx]));
     }
-    refit(map, minus(planes_of_frame(*clip_, frame), out_.background));
+    refit(map, minus(frame_planes(*clip_, frame), out_.background));
     std::vector<std::array<float, 3>> fits;
     for (const Base& base : map.bases) fits.push_back(base.coefficients);
     return fits;
@@ -257,11 +252,6 @@ class Quantiser {
 
 }  // namespace
 
-Planes planes_of_frame(const ClipFrames& clip, int frame) {
-  const auto k = static_cast<std::size_t>(frame);
-  return clip.colour.empty() ? Planes{clip.luma[k]} : to_planes(clip.colour[k], 3);
-}
-
 QuantisedClip quantise_clip(const ClipFrames& clip, const Planes& background, const std::vector<Cable>& cables,
                             const CompressClipOptions& options, const JobContext& job) {
   check_options(options);
@@ -303,7 +293,7 @@ std::string compress_clip(const ClipFrames& clip, const Planes& background, cons
   std::vector<double> quality(static_cast<std::size_t>(clip.num_frames()));
   parallel_for(job.jobs, clip.num_frames(), [&](int frame) {
     quality[static_cast<std::size_t>(frame)] =
-        std::min(100.0, psnr(decoded_frame(quantised, decoded, frame), planes_of_frame(clip, frame)));
+        std::min(100.0, psnr(decoded_frame(quantised, decoded, frame), frame_planes(clip, frame)));
   });
   *report = {};
   for (const double value : quality) report->psnr += value / static_cast<double>(quality.size());
@@ -331,7 +321,7 @@ std::vector<Cable> with_free_bases(const ClipFrames& clip, const Planes& backgro
   std::vector<std::vector<Cable>> frames(static_cast<std::size_t>(clip.num_frames()));
   parallel_for(job.jobs, clip.num_frames(), [&](int frame) {
     job.check_cancelled();
-    const Planes target = minus(planes_of_frame(clip, frame), background);
+    const Planes target = minus(frame_planes(clip, frame), background);
     BaseMap map = bases_in_frame(cables, frame, clip.width, clip.height, clip.num_planes());
     PursueOptions options;
     options.num_bases = num_bases - static_cast<int>(map.bases.size());

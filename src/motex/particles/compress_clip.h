@@ -60,9 +60,6 @@ std::string compress_clip(const ClipFrames& clip, const Planes& background, cons
 /// The frame that a decoder shows: 1 or 3 planes, grey levels, not rounded. dequantised_cables() gives `cables`.
 Planes decoded_frame(const QuantisedClip& clip, const std::vector<Cable>& cables, std::int64_t frame);
 
-/// Planes of a frame: luma of a grey clip, R, G, B of a coloured one.
-Planes planes_of_frame(const ClipFrames& clip, int frame);
-
 /// The cables, and in every frame where they are fewer than num_bases bases (coils counted) free ones by matching
 /// pursuit in what they leave: cables of one frame.
 std::vector<Cable> with_free_bases(const ClipFrames& clip, const Planes& background, std::vector<Cable> cables,

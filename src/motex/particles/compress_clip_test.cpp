@@ -8,6 +8,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/particles/clip_background.h"
 #include "motex/particles/clip_codec.h"
 
 namespace motex {
@@ -82,7 +83,7 @@ TEST(CompressClip, LosesLittleAndTheDecoderShowsWhatWasReported) {
     const QuantisedClip back = read_clip_bytes(bytes, "x");
     const std::vector<Cable> cables = dequantised_cables(back);
     double mean = 0;
-    for (int t = 0; t < 16; ++t) mean += psnr(decoded_frame(back, cables, t), planes_of_frame(scene.clip, t)) / 16;
+    for (int t = 0; t < 16; ++t) mean += psnr(decoded_frame(back, cables, t), frame_planes(scene.clip, t)) / 16;
     EXPECT_NEAR(mean, report.psnr, 1e-9);
     const double of_noise = 20 * std::log10(255 / 3.0);
     EXPECT_GT(report.psnr, of_noise - 0.9);
@@ -154,7 +155,7 @@ TEST(CompressClip, AModelIsCompressedWithoutItsFrames) {
   const QuantisedClip quantised = quantise_cables(model);
   const std::vector<Cable> cables = dequantised_cables(quantised);
   double mean = 0;
-  for (int t = 0; t < 16; ++t) mean += psnr(decoded_frame(quantised, cables, t), planes_of_frame(scene.clip, t)) / 16;
+  for (int t = 0; t < 16; ++t) mean += psnr(decoded_frame(quantised, cables, t), frame_planes(scene.clip, t)) / 16;
   EXPECT_GT(mean, 20 * std::log10(255 / 3.0) - 1.5);
 }
 

@@ -5,19 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motex/core/quantile.h"
+
 namespace motex {
 namespace {
 
 constexpr std::size_t kFewestFrames = 5;
 constexpr double kSlowest = 0.2;  // pixels a frame: less is no parallax
 constexpr double kLeastCorrelation = 0.3;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

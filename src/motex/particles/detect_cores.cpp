@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "motex/core/error.h"
+#include "motex/core/quantile.h"
 #include "motex/particles/blob_peaks.h"
 #include "motex/particles/cable.h"
 
@@ -29,14 +30,6 @@ constexpr double kSuspicious = 2;   // deviations of the mean square of what a s
 constexpr double kSplitGain = 35;   // of the squared error in squared noises, for four more parameters
 constexpr double kAgreement = 0.4;  // of the amplitude expected: the frame agrees with a guess
 constexpr double kWeakRatio = 0.2;  // of a stronger spot's peak there: a part of it
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 Plane negated(Plane plane) {
   for (float& value : plane.values) value = -value;
@@ -344,8 +337,10 @@ DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& re
   std::vector<double> aspects, misfits;
   for (const Plane& residual : sample)
     for (const Blob& blob : outstanding(residual, noise, out, misfits)) aspects.push_back(blob.aspect());
-  if (out.shape == CoreShape::kAuto)
-    out.shape = quantile(aspects, is_crowded ? 0.25 : 0.5) > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
+  if (out.shape == CoreShape::kAuto) {
+    const double aspect = aspects.empty() ? 1 : quantile(aspects, is_crowded ? 0.25 : 0.5);
+    out.shape = aspect > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
+  }
   out.shape_misfit = std::min(0.3, median(misfits));
   return out;
 }

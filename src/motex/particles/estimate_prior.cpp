@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "motex/core/error.h"
+#include "motex/core/quantile.h"
 #include "motex/particles/cable_prior.h"
 
 namespace motex {
@@ -13,12 +14,6 @@ namespace {
 constexpr double kRobust = 1.4826;  // deviation of a normal law / its median absolute deviation
 constexpr double kOutlier = 5;      // deviations
 constexpr double kLeastPlaceStep = 0.03, kLeastScaleStep = 0.04, kLeastPeakStep = 0.05, kLeastTurn = 0.02;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Mean and deviation without outliers; `least` bounds the deviation.
 Spread robust_spread(const std::vector<double>& values, double least) {
@@ -111,10 +106,6 @@ struct Counts {
   double elements = 0;
 };
 
-bool is_seen(const CablePrior& prior, double x, double y) {
-  return x >= -0.5 && x < prior.width - 0.5 && y >= -0.5 && y < prior.height - 0.5;
-}
-
 Counts count(const std::vector<Cable>& cables, const CablePrior& prior, int num_frames) {
   Counts counts;
   const CoordinateDynamics &dx = prior.dynamics.x, &dy = prior.dynamics.y;
@@ -129,8 +120,8 @@ Counts count(const std::vector<Cable>& cables, const CablePrior& prior, int num_
       if (cable.first_frame + static_cast<std::int64_t>(t) + 1 >= num_frames) continue;
       const Base& now = cable.core[t];
       const double vx = t > 0 ? now.x - cable.core[t - 1].x : dx.c0, vy = t > 0 ? now.y - cable.core[t - 1].y : dy.c0;
-      const bool inside = is_seen(prior, now.x - dx.b * vx + (t > 0 ? dx.c : (1 + dx.b) * dx.c0),
-                                  now.y - dy.b * vy + (t > 0 ? dy.c : (1 + dy.b) * dy.c0));
+      const bool inside = is_inside(now.x - dx.b * vx + (t > 0 ? dx.c : (1 + dx.b) * dx.c0),
+                                    now.y - dy.b * vy + (t > 0 ? dy.c : (1 + dy.b) * dy.c0), prior.width, prior.height);
       const bool dies = t + 1 == cable.core.size();
       (inside ? counts.steps_inside : counts.steps_outside) += 1;
       if (dies) (inside ? counts.deaths_inside : counts.deaths_outside) += 1;

@@ -43,10 +43,6 @@ class Rarity {
   double num_frames_, own_ = 0;
 };
 
-bool inside(double x, double y, const BirthDeathMaps& maps) {
-  return x >= -0.5 && y >= -0.5 && x < maps.width - 0.5 && y < maps.height - 0.5;
-}
-
 struct Meeting {
   double distance = 0;
   std::size_t death = 0, birth = 0;
@@ -116,7 +112,7 @@ class FalseEnds {
       for (std::int64_t gap = 1; gap <= kLongestGap && death.frame + gap < num_frames_; ++gap) {
         const auto frames = static_cast<double>(gap);
         const double x = death.x + death.vx * frames, y = death.y + death.vy * frames, radius = 2 + frames;
-        if (!inside(x, y, maps_)) break;
+        if (!is_inside(x, y, maps_.width, maps_.height)) break;
         if (births_.expected(x, y, radius, kLongestGap) > kImprobable) continue;
         by_chance += births_.expected(x, y, radius, 1);
         for (const std::size_t b : births_in[static_cast<std::size_t>(death.frame + gap)]) {
@@ -167,7 +163,8 @@ class FalseEnds {
     std::vector<std::pair<double, std::size_t>> beside;
     double num_rare = 0, num_by_chance = 0;
     for (std::size_t i = 0; i < ends.size(); ++i) {
-      if (is_false[i] != 0 || !inside(ends[i].x, ends[i].y, maps_) || !rarity.is_rare(ends[i])) continue;
+      if (is_false[i] != 0 || !is_inside(ends[i].x, ends[i].y, maps_.width, maps_.height) || !rarity.is_rare(ends[i]))
+        continue;
       const auto there = static_cast<double>(present_[static_cast<std::size_t>(ends[i].frame)].size());
       const double reach = 2 * kBesideScales * cable_of(ends[i]).core.front().scale + 1;
       num_rare += 1;

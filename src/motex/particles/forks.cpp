@@ -14,16 +14,6 @@ constexpr double kMostLeft = 0.5;    // of its energy
 constexpr double kBetterByTwo = 0.75;
 constexpr std::array<int, 4> kChanceShifts{7, -7, 11, -11};  // frames: light is another by then
 
-double dot(const BasePatch& a, const BasePatch& b) {
-  const int left = std::max(a.left, b.left), right = std::min(a.left + a.width, b.left + b.width);
-  const int top = std::max(a.top, b.top), bottom = std::min(a.top + a.height, b.top + b.height);
-  double sum = 0;
-  for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x)
-      sum += static_cast<double>(a.row(y - a.top)[x - a.left]) * static_cast<double>(b.row(y - b.top)[x - b.left]);
-  return sum;
-}
-
 /// Ends of cables seen in one direction of time: what goes out of one frame and what comes in in the next.
 class Ends {
  public:
@@ -62,7 +52,7 @@ class Ends {
     for (const Heir& heir : heirs) least_alone = std::min(least_alone, 1 - 2 * heir.share + heir.energy);
     for (std::size_t a = 0; a < heirs.size(); ++a)
       for (std::size_t b = a + 1; b < heirs.size(); ++b) {
-        const double both = heirs[a].coefficient * heirs[b].coefficient * dot(heirs[a].patch, heirs[b].patch);
+        const double both = heirs[a].coefficient * heirs[b].coefficient * inner_product(heirs[a].patch, heirs[b].patch);
         const double left = 1 - 2 * (heirs[a].share + heirs[b].share) + heirs[a].energy + heirs[b].energy + 2 * both;
         if (left >= least) continue;
         least = left;
@@ -102,8 +92,8 @@ class Ends {
     std::vector<Heir> heirs;
     const auto add = [&](int k, const Base& base) {
       Heir heir{k, render_patch(base, width_, height_), static_cast<double>(base.coefficients[0]) / alpha, 0, 0};
-      heir.share = heir.coefficient * dot(patch, heir.patch);
-      heir.energy = heir.coefficient * heir.coefficient * dot(heir.patch, heir.patch);
+      heir.share = heir.coefficient * inner_product(patch, heir.patch);
+      heir.energy = heir.coefficient * heir.coefficient * inner_product(heir.patch, heir.patch);
       if (heir.share >= kLeastShare) heirs.push_back(std::move(heir));
     };
     if (const Cable& self = cables_[static_cast<std::size_t>(one)]; self.covers(frame)) add(one, self.at(frame));

@@ -10,26 +10,6 @@ namespace {
 
 constexpr int kMaxSteps = 60;
 
-/// ⟨a, b⟩ over the pixels that both reach; 0 when there are none.
-double overlap_of(const BasePatch& a, const BasePatch& b) {
-  const int left = std::max(a.left, b.left), right = std::min(a.left + a.width, b.left + b.width);
-  const int top = std::max(a.top, b.top), bottom = std::min(a.top + a.height, b.top + b.height);
-  double sum = 0;
-  for (int y = top; y < bottom; ++y) {
-    const float *row_a = a.row(y - a.top) + (left - a.left), *row_b = b.row(y - b.top) + (left - b.left);
-    float row = 0;
-    for (int x = 0; x < right - left; ++x) row += row_a[x] * row_b[x];
-    sum += static_cast<double>(row);
-  }
-  return sum;
-}
-
-double energy_of(const BasePatch& patch) {
-  double energy = 0;
-  for (const float value : patch.values) energy += static_cast<double>(value) * static_cast<double>(value);
-  return energy;
-}
-
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
@@ -49,7 +29,7 @@ JointFit::JointFit(const std::vector<Base>& bases, int width, int height, double
     for (std::size_t k = i + 1; k < by_left.size() && patch(by_left[k]).left < a.left + a.width; ++k) {
       const BasePatch& b = patch(by_left[k]);
       if (b.top >= a.top + a.height || a.top >= b.top + b.height) continue;
-      rows[static_cast<std::size_t>(by_left[i])].push_back({by_left[k], overlap_of(a, b)});
+      rows[static_cast<std::size_t>(by_left[i])].push_back({by_left[k], inner_product(a, b)});
     }
   }
   row_begin_.push_back(0);

@@ -31,7 +31,7 @@ void check_clip(const ClipFrames& clip) {
 class Learning {
  public:
   Learning(const ClipFrames& clip, const LearnTexturedMotionOptions& options, const JobContext& job)
-      : clip_(clip), options_(options), job_(job), background_(clip, options.background, part(0, 0.05)) {
+      : clip_(clip), options_(options), job_(job), background_(clip, options.background, job.part(0, 0.05)) {
     learned_.report.background_psnr = psnr_of(background_.residuals());
   }
 
@@ -45,19 +45,10 @@ class Learning {
   }
 
  private:
-  /// What happens between those shares of the whole job.
-  JobContext part(double from, double to) const {
-    JobContext out = job_;
-    out.on_progress = [this, from, to](std::string_view stage, double fraction) {
-      job_.progress(stage, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
-    };
-    return out;
-  }
-
   /// Initial cables: detections linked.
   void find_cables() {
     TrackElementsReport report;
-    model().cables = track_elements(clip_, luma(background_.still()), 0, {}, part(0.05, 0.4), &report);
+    model().cables = track_elements(clip_, luma(background_.still()), 0, {}, job_.part(0.05, 0.4), &report);
     model().flow = report.link.flow.flow;
     learned_.report.expected_wrong_links = report.link.expected_wrong_share;
     if (model().cables.empty())
@@ -87,7 +78,7 @@ class Learning {
     sample_options.seed = options_.seed + static_cast<std::uint64_t>(round);
     const double share = 0.3 / options_.rounds;
     SampleCablesReport sampled = sample_cables(background_.residuals(), model().cables, prior, sample_options,
-                                               part(0.4 + share * round, 0.4 + share * (round + 1)));
+                                               job_.part(0.4 + share * round, 0.4 + share * (round + 1)));
     if (sampled.cables.empty()) return;
     model().cables = std::move(sampled.cables);
     sampled_ = true;
@@ -122,7 +113,7 @@ class Learning {
   void grow() {
     GrowCoilsOptions grow_options;
     if (!options_.coils) grow_options.max_coils = 0;
-    grow_coils(clip_, background_.still(), moving_residuals(), model().cables, grow_options, part(0.7, 0.9));
+    grow_coils(clip_, background_.still(), moving_residuals(), model().cables, grow_options, job_.part(0.7, 0.9));
     background_.refresh(clip_, model().cables, job_);
   }
 
@@ -136,10 +127,10 @@ class Learning {
     TexturedMotion& out = model();
     LearnTemplatesOptions template_options;
     template_options.seed = options_.seed;
-    out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.9, 0.92));
+    out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, job_.part(0.9, 0.92));
     if (options_.coils) {  // each moveton again, by the bases of its own shape
-      regroup_coils(clip_, background_.still(), moving_residuals(), out.cables, {}, part(0.92, 0.94));
-      out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, part(0.94, 0.95));
+      regroup_coils(clip_, background_.still(), moving_residuals(), out.cables, {}, job_.part(0.92, 0.94));
+      out.templates = learn_templates(out.cables, clip_.num_planes(), template_options, job_.part(0.94, 0.95));
     }
     for (std::size_t k = 0; k < out.templates.size(); ++k) out.dynamics.push_back(dynamics_of(static_cast<int>(k)));
     out.maps = estimate_maps(out.cables, clip_.width, clip_.height, clip_.num_frames());

@@ -8,6 +8,7 @@
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/core/parallel.h"
+#include "motex/particles/clip_background.h"
 #include "motex/particles/pursuit.h"
 #include "motex/particles/steady.h"
 
@@ -37,34 +38,20 @@ Planes mean_over_time(const ClipFrames& clip) {
   return mean;
 }
 
-double energy_of(const Plane& plane) {
-  double sum = 0;
-  for (const float value : plane.values) sum += static_cast<double>(value) * static_cast<double>(value);
-  return sum;
-}
-
 /// The smallest number of bases that shows enough of the middle frame.
 int choose_num_bases(const Plane& residual, const JobContext& job) {
   PursueOptions options;
   options.refine_rounds = 0;
   const JobContext silent{nullptr, nullptr, job.cancel, 1};
   const std::vector<BaseMap> maps = pursue_stages({residual}, kNumbers, options, silent);
-  const double all = energy_of(residual);
+  const double all = sum_of_squares(residual);
   for (std::size_t k = 0; k < maps.size(); ++k) {
     Plane left = residual;
     for (const Base& base : maps[k].bases)
       add_patch(left, render_patch(base, left.width, left.height), -base.coefficients[0]);
-    if (energy_of(left) <= (1 - kShown) * all) return kNumbers[k];
+    if (sum_of_squares(left) <= (1 - kShown) * all) return kNumbers[k];
   }
   return kNumbers.back();
-}
-
-JobContext part_of(const JobContext& job, double from, double to) {
-  JobContext part = job;
-  part.on_progress = [&job, from, to](std::string_view stage, double fraction) {
-    job.progress(stage, from + (to - from) * fraction);
-  };
-  return part;
 }
 
 std::vector<Plane> light_left(const ClipFrames& clip, const TexturedMotion& model, int jobs) {
@@ -72,9 +59,7 @@ std::vector<Plane> light_left(const ClipFrames& clip, const TexturedMotion& mode
   parallel_for(jobs, clip.num_frames(), [&](int t) {
     const auto k = static_cast<std::size_t>(t);
     const BaseMap map = bases_in_frame(model.cables, t, clip.width, clip.height, model.num_planes);
-    left[k] = luma(reconstruct(map, model.background));
-    for (std::size_t i = 0; i < left[k].values.size(); ++i)
-      left[k].values[i] = clip.luma[k].values[i] - left[k].values[i];
+    left[k] = minus(clip.luma[k], luma(reconstruct(map, model.background)));
   });
   return left;
 }
@@ -82,7 +67,7 @@ std::vector<Plane> light_left(const ClipFrames& clip, const TexturedMotion& mode
 double deviation_of(const std::vector<Plane>& planes) {
   double sum = 0, count = 1e-9;
   for (const Plane& plane : planes) {
-    sum += energy_of(plane);
+    sum += sum_of_squares(plane);
     count += static_cast<double>(plane.values.size());
   }
   return std::sqrt(sum / count);
@@ -165,7 +150,7 @@ LearnedWater learn_water(const ClipFrames& given, const LearnWaterOptions& optio
   CarryOptions carry;
   carry.num_bases = options.num_bases > 0 ? options.num_bases : choose_num_bases(residuals[residuals.size() / 2], job);
   out.num_bases = carry.num_bases;
-  model.cables = carry_bases(clip, model.background, water.flow, carry, part_of(job, 0.05, 0.9));
+  model.cables = carry_bases(clip, model.background, water.flow, carry, job.part(0.05, 0.9));
   job.progress("light", 0.9);
   const std::vector<Plane> left = light_left(clip, model, job.jobs);
   out.light = model.noise = deviation_of(left);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "motex/core/error.h"
+#include "motex/core/quantile.h"
 #include "motex/particles/fit_element_model.h"
 
 namespace motex {
@@ -44,10 +45,7 @@ double nearest_distance(const SightFrames& frames) {
       for (const Sight& b : frames[t]) best = std::min(best, std::hypot(a.x - b.x, a.y - b.y));
       nearest.push_back(best);
     }
-  if (nearest.empty()) return 1;
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return *middle;
+  return nearest.empty() ? 1 : median(std::move(nearest));
 }
 
 LevelModel level_of(const SightFrames& frames, double Sight::*value) {
@@ -120,10 +118,8 @@ bool is_element(const SightChain& chain, const ElementModel& model, int width, i
   if (static_cast<int>(chain.sights.size()) >= min_frames) return true;
   const PictureEdges edges{static_cast<double>(width), static_cast<double>(height)};
   const Sight &first = chain.sights.front(), &last = chain.sights.back();
-  const auto is_inside = [&](const Sight& s) {
-    return s.x > -0.5 && s.y > -0.5 && s.x < width - 0.5 && s.y < height - 0.5;
-  };
-  if (std::none_of(chain.sights.begin(), chain.sights.end(), is_inside)) return false;
+  const auto is_seen = [&](const Sight& s) { return is_inside(s.x, s.y, width, height); };
+  if (std::none_of(chain.sights.begin(), chain.sights.end(), is_seen)) return false;
   return (first.frame == 0 || edges.is_entering(model, first.x, first.y)) &&
          (last.frame == num_frames - 1 || edges.is_leaving(model, last.x, last.y));
 }

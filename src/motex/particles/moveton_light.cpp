@@ -15,12 +15,6 @@ namespace {
 constexpr double kRidge = 0.02;
 constexpr double kLeastNoise = 1;  // grey levels
 
-/// a − b.
-Plane minus(Plane a, const Plane& b) {
-  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
-  return a;
-}
-
 std::vector<Base> copies_of(const std::vector<Base*>& places) {
   std::vector<Base> out;
   out.reserve(places.size());

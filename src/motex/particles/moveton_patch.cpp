@@ -15,11 +15,6 @@ namespace {
 constexpr double kCell = 2 * kPatchReach / kPatchSide;  // core scales
 constexpr double kMiddle = (kPatchSide - 1) / 2.0;
 
-double luma_of(const RelativeBase& base, int num_planes) {
-  if (num_planes < 3) return base.coefficient[0];
-  return 0.299 * base.coefficient[0] + 0.587 * base.coefficient[1] + 0.114 * base.coefficient[2];
-}
-
 double turn_of(const Base& core) { return is_oriented(core.kind) ? core.angle : 0; }
 
 /// out += weight · ψ / ‖ψ‖, on the cells that the base reaches.
@@ -56,6 +51,11 @@ double analytic_norm(BaseKind kind) {
   return std::sqrt(kPi);
 }
 
+double luma_coefficient(const RelativeBase& base, int num_planes) {
+  const auto& [red, green, blue] = base.coefficient;
+  return num_planes < 3 ? red : luma_of(red, green, blue);
+}
+
 RelativeBase relative_to(const Base& base, const Base& core, int num_planes) {
   const double turn = turn_of(core), c = std::cos(turn), s = std::sin(turn);
   const double dx = (base.x - core.x) / core.scale, dy = (base.y - core.y) / core.scale;
@@ -85,7 +85,7 @@ void render_moveton(BaseKind core_kind, std::span<const RelativeBase> coils, int
   std::fill_n(out, kPatchSize, 0.0F);
   add_base(core_kind, 0, 0, 1, 0, 1, out);
   for (const RelativeBase& coil : coils)
-    add_base(coil.kind, coil.u, coil.v, std::exp(coil.log_scale), coil.angle, luma_of(coil, num_planes), out);
+    add_base(coil.kind, coil.u, coil.v, std::exp(coil.log_scale), coil.angle, luma_coefficient(coil, num_planes), out);
   double energy = 0;
   for (std::size_t i = 0; i < kPatchSize; ++i) energy += static_cast<double>(out[i]) * static_cast<double>(out[i]);
   const auto factor = static_cast<float>(energy > 0 ? 1 / std::sqrt(energy) : 0);

@@ -26,6 +26,9 @@ struct RelativeBase {
   std::array<double, 3> coefficient{};  ///< of each plane, divided by the core's luma coefficient
 };
 
+/// The luma coefficient, divided by the core's.
+double luma_coefficient(const RelativeBase& base, int num_planes);
+
 RelativeBase relative_to(const Base& base, const Base& core, int num_planes);
 /// The inverse; the core has its coefficients.
 Base placed_at(const RelativeBase& relative, const Base& core, int num_planes);

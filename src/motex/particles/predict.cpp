@@ -21,24 +21,6 @@ constexpr double kWider = 2;          // variances of expectations handed to the
 constexpr double kBirthBlur = 4;      // pixels
 constexpr double kShownAgain = 0.7;   // weight of an element that was missed once
 
-Plane minus(const Plane& a, const Plane& b) {
-  Plane out = a;
-  for (std::size_t i = 0; i < out.values.size(); ++i) out.values[i] -= b.values[i];
-  return out;
-}
-
-Sight sight_of(const Blob& blob, int frame) {
-  const double amplitude = std::max(std::abs(blob.amplitude), 1e-6), relative = blob.amplitude_spread / amplitude;
-  return {blob.x,
-          blob.y,
-          std::log(amplitude),
-          blob.log_scale,
-          blob.place_spread * blob.place_spread,
-          relative * relative,
-          blob.log_scale_spread * blob.log_scale_spread,
-          frame};
-}
-
 /// plane += A e^{−q/2} of the blob whose place is known to variance v in x and y: covariances add.
 void add_expected(const Blob& blob, double variance, double weight, Plane& plane) {
   const double e = std::hypot(blob.e1, blob.e2), s2 = std::exp(2 * blob.log_scale);

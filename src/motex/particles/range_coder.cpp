@@ -36,21 +36,22 @@ bool RangeWriter::bit(BitModel& model, bool value) {
     range_ = bound;
   }
   model.learn(value);
+  widen();
+  return value;
+}
+
+void RangeWriter::widen() {
   while (range_ < kLeastRange) {
     range_ <<= 8U;
     shift_low();
   }
-  return value;
 }
 
 std::uint32_t RangeWriter::raw(std::uint32_t value, int num_bits) {
   for (int k = num_bits - 1; k >= 0; --k) {
     range_ >>= 1U;
     if ((value >> k & 1U) != 0) low_ += range_;
-    while (range_ < kLeastRange) {
-      range_ <<= 8U;
-      shift_low();
-    }
+    widen();
   }
   return value;
 }
@@ -100,11 +101,15 @@ bool RangeReader::bit(BitModel& model, bool) {
     range_ = bound;
   }
   model.learn(value);
+  widen();
+  return value;
+}
+
+void RangeReader::widen() {
   while (range_ < kLeastRange) {
     range_ <<= 8U;
     code_ = code_ << 8U | next_byte();
   }
-  return value;
 }
 
 std::uint32_t RangeReader::raw(std::uint32_t, int num_bits) {
@@ -114,10 +119,7 @@ std::uint32_t RangeReader::raw(std::uint32_t, int num_bits) {
     const bool bit = code_ >= range_;
     if (bit) code_ -= range_;
     value = value << 1U | static_cast<std::uint32_t>(bit);
-    while (range_ < kLeastRange) {
-      range_ <<= 8U;
-      code_ = code_ << 8U | next_byte();
-    }
+    widen();
   }
   return value;
 }

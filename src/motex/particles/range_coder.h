@@ -31,6 +31,7 @@ class RangeWriter {
   [[noreturn]] void fail(const char* message) const;
 
  private:
+  void widen();  ///< a narrow range gives up its leading byte
   void shift_low();
   std::string bytes_;
   std::uint64_t low_ = 0;
@@ -51,6 +52,7 @@ class RangeReader {
   [[noreturn]] void fail(const char* message) const;
 
  private:
+  void widen();
   std::uint8_t next_byte();
   std::string_view bytes_;
   std::string name_;

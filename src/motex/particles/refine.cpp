@@ -103,12 +103,6 @@ bool is_inside(const Base& base, const Plane& image) {
   return base.x >= -0.5 && base.y >= -0.5 && base.x <= image.width - 0.5 && base.y <= image.height - 0.5;
 }
 
-double energy_of(const BasePatch& patch) {
-  double energy = 0;
-  for (const float value : patch.values) energy += static_cast<double>(value) * value;
-  return energy;
-}
-
 Base climbed(const Plane& image, const Base& start, int num_steps) {
   const Box box = box_around(start, image);
   std::vector<float> pixels;
@@ -182,8 +176,7 @@ std::vector<float> fit_coefficients(const Plane& image, const std::vector<BasePa
   for (int step = 0; step < kMaxGradientSteps && slope_energy > enough && slope_energy > 0; ++step) {
     Plane image_of_direction(image.width, image.height);
     subtract(image_of_direction, patches, direction, -1);
-    double energy = 0;
-    for (const float value : image_of_direction.values) energy += static_cast<double>(value) * value;
+    const double energy = sum_of_squares(image_of_direction);
     if (energy <= 0) break;
     const auto length = static_cast<float>(slope_energy / energy);
     for (std::size_t j = 0; j < coefficients.size(); ++j) coefficients[j] += length * direction[j];

@@ -27,11 +27,6 @@ constexpr double kMostGrowth = 1.8;  // of the coil's scale
 constexpr double kIsolation = 1.5;
 constexpr double kMostReach = 2.5;  // times the reach, of coils that lead outwards
 
-double luma_of(const RelativeBase& base, int num_planes) {
-  if (num_planes < 3) return base.coefficient[0];
-  return 0.299 * base.coefficient[0] + 0.587 * base.coefficient[1] + 0.114 * base.coefficient[2];
-}
-
 /// Fits bases in turn to what the others leave of `target`, then coefficients together.
 void refit(const Plane& target, std::vector<Base>& bases) {
   Plane left = target;
@@ -164,7 +159,7 @@ std::vector<RelativeBase> coils_of_mean(const std::vector<std::vector<RelativeBa
   Plane mean(kMeanSide, kMeanSide);
   for (const std::vector<RelativeBase>& coils : movetons)
     for (RelativeBase coil : coils) {
-      coil.coefficient = {luma_of(coil, num_planes), 0, 0};
+      coil.coefficient = {luma_coefficient(coil, num_planes), 0, 0};
       const Base base = placed_at(coil, core, 1);
       add_patch(mean, render_patch(base, kMeanSide, kMeanSide),
                 base.coefficients[0] / static_cast<float>(std::max<std::size_t>(1, movetons.size())));

@@ -87,7 +87,7 @@ void SampledMoveton::colour_core(Base& core, double luma_coefficient) const {
     core.coefficients[0] = static_cast<float>(luma_coefficient);
     return;
   }
-  const double luma = 0.299 * colour_[0] + 0.587 * colour_[1] + 0.114 * colour_[2];
+  const double luma = luma_of(colour_[0], colour_[1], colour_[2]);
   for (std::size_t k = 0; k < 3; ++k)  // a template without colours is grey
     core.coefficients[k] = static_cast<float>(luma_coefficient * (luma > 0.1 ? colour_[k] / luma : 1));
 }

@@ -46,6 +46,20 @@ struct SimulatedScene {
   TransitionMatrix wing_transitions;                ///< of states, birds alone
 };
 
+/// Fields that the options of all scenes have.
+template <typename Self, typename Visitor>
+void visit_scene_sizes(Self& self, Visitor& visit) {
+  visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
+  visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
+  visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
+  visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+}
+template <typename Self, typename Visitor>
+void visit_scene_noise(Self& self, Visitor& visit) {
+  visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
+  visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+}
+
 struct SimulateSnowOptions {
   int width = 320, height = 240, frames = 100;
   double frames_per_sec = 25;
@@ -60,10 +74,7 @@ struct SimulateSnowOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
-    visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
-    visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
-    visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+    visit_scene_sizes(self, visit);
     visit(Field{"elements", "", "flakes in a frame, on average"}, self.elements, Range{0, 20000});
     visit(Field{"wind", "pixels a frame", "mean velocity to the right"}, self.wind, Range{-100, 100});
     visit(Field{"fall", "pixels a frame", "mean velocity downwards"}, self.fall, Range{-100, 100});
@@ -78,8 +89,7 @@ struct SimulateSnowOptions {
     visit(Field{"vanish", "", "probability that a flake vanishes before the next frame"}, self.vanish, Range{0, 1});
     visit(Field{"level", "grey levels", "of the background"}, self.level, Range{0, 255});
     visit(Field{"texture", "grey levels", "deviation of the background's pattern"}, self.texture, Range{0, 100});
-    visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
-    visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+    visit_scene_noise(self, visit);
   }
 };
 
@@ -103,10 +113,7 @@ struct SimulateBirdsOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
-    visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
-    visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
-    visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+    visit_scene_sizes(self, visit);
     visit(Field{"elements", "", "birds in a frame, on average"}, self.elements, Range{0, 2000});
     visit(Field{"group_size", "", "birds that fly together, on average"}, self.group_size, Range{1, 100});
     visit(Field{"wind", "pixels a frame", "mean velocity to the right"}, self.wind, Range{-100, 100});
@@ -121,8 +128,7 @@ struct SimulateBirdsOptions {
           Range{0, 255});
     visit(Field{"max_amplitude", "grey levels", "and the darkest"}, self.max_amplitude, Range{0, 255});
     visit(Field{"stay", "", "probability that wings stay as they are to the next frame"}, self.stay, Range{0, 1});
-    visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
-    visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+    visit_scene_noise(self, visit);
   }
 };
 
@@ -146,10 +152,7 @@ struct SimulateFireworksOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"width", "pixels", "of the picture"}, self.width, Range{8, 4096});
-    visit(Field{"height", "pixels", "of the picture"}, self.height, Range{8, 4096});
-    visit(Field{"frames", "", "length"}, self.frames, Range{1, 100000});
-    visit(Field{"frames_per_sec", "1/s", "frame rate"}, self.frames_per_sec, Range{1, 1000});
+    visit_scene_sizes(self, visit);
     visit(Field{"bursts", "", "in the whole scene"}, self.bursts, Range{0, 10000});
     visit(Field{"elements", "", "sparks of a burst, on average"}, self.elements, Range{1, 5000});
     visit(Field{"speed", "pixels a frame", "of sparks at their birth, on average"}, self.speed, Range{0, 100});
@@ -164,8 +167,7 @@ struct SimulateFireworksOptions {
     visit(Field{"min_size", "pixels", "smallest deviation across a spark"}, self.min_size, Range{0.3, 50});
     visit(Field{"max_size", "pixels", "largest"}, self.max_size, Range{0.3, 50});
     visit(Field{"amplitude", "grey levels", "of a spark at its birth, on average"}, self.amplitude, Range{0, 255});
-    visit(Field{"noise", "grey levels", "deviation of a pixel"}, self.noise, Range{0, 100});
-    visit(Field{"seed", "", "of everything random"}, self.seed, Range{0, 9007199254740991.0});
+    visit_scene_noise(self, visit);
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
-#include "motex/core/parallel.h"
 #include "motex/core/rng.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/simulated_picture.h"
@@ -14,7 +13,7 @@
 namespace motex {
 namespace {
 
-constexpr int kPaths = 2, kNoise = 1000;                      // streams of the generator
+constexpr int kPaths = 2;                                     // streams of the generator
 constexpr std::array<double, 3> kWingLift{0.85, 0.12, -0.7};  // radians above the body: up, level, down
 constexpr std::array<double, 3> kFeathers{0.96, 1.0, 1.06};   // colour of the birds' darkness: R, G, B
 
@@ -167,17 +166,11 @@ SimulatedScene simulate_birds(const SimulateBirdsOptions& options) {
   check_options(options);
   if (options.min_size > options.max_size || options.min_amplitude > options.max_amplitude)
     throw InvalidInput("min_size and min_amplitude must not be above max_size and max_amplitude");
-  SimulatedScene scene;
-  scene.width = options.width;
-  scene.height = options.height;
-  scene.frames_per_sec = options.frames_per_sec;
-  scene.persistence = options.persistence;
-  scene.noise = options.deviation;
+  const Planes background = sky(options.width, options.height);
+  SimulatedScene scene = empty_scene(options, background);
   scene.mean_velocity_x = options.wind;
   scene.mean_velocity_y = -options.rise;
   scene.wing_transitions = wing_matrix(options.stay);
-  const Planes background = sky(options.width, options.height);
-  scene.background = to_image(background);
   Flight flight(options, scene.wing_transitions);
   std::vector<std::vector<Bird>> shown(static_cast<std::size_t>(options.frames));
   for (int t = 0; t < options.frames; ++t) {
@@ -185,15 +178,11 @@ SimulatedScene simulate_birds(const SimulateBirdsOptions& options) {
     std::vector<Bird>& birds = shown[static_cast<std::size_t>(t)];
     for (const Group& group : flight.groups()) birds.insert(birds.end(), group.birds.begin(), group.birds.end());
     for (const Bird& bird : birds)
-      if (bird.x >= -0.5 && bird.y >= -0.5 && bird.x < options.width - 0.5 && bird.y < options.height - 0.5)
+      if (is_inside(bird.x, bird.y, options.width, options.height))
         scene.points.push_back({t, bird.track, bird.x, bird.y, bird.size, lean(bird), -bird.amplitude, bird.state});
   }
-  scene.frames.resize(shown.size());
-  parallel_for(0, options.frames, [&](int t) {
-    Planes planes = background;
+  draw_frames(scene, background, options.frames, options.noise, options.seed, [&](int t, Planes& planes) {
     for (const Bird& bird : shown[static_cast<std::size_t>(t)]) draw_bird(planes, bird);
-    Rng noise = Rng(options.seed).fork(static_cast<std::uint64_t>(kNoise) + static_cast<std::uint64_t>(t));
-    scene.frames[static_cast<std::size_t>(t)] = noisy_picture(std::move(planes), options.noise, noise);
   });
   return scene;
 }

@@ -7,7 +7,6 @@
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
-#include "motex/core/parallel.h"
 #include "motex/core/rng.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/simulated_picture.h"
@@ -15,8 +14,8 @@
 namespace motex {
 namespace {
 
-constexpr int kPaths = 2, kNoise = 1000;  // streams of the generator
-constexpr double kSky = 8;                // grey levels
+constexpr int kPaths = 2;   // streams of the generator
+constexpr double kSky = 8;  // grey levels
 constexpr std::array<std::array<double, 3>, 5> kColours{
     {{1.5, 0.75, 0.6}, {0.7, 1.15, 0.8}, {0.8, 0.95, 1.9}, {1.25, 1.0, 0.4}, {1.0, 1.0, 1.0}}};
 
@@ -32,7 +31,7 @@ struct Spark {
 /// Luma 1, so that amplitudes are of the luma.
 std::array<double, 3> unit_colour(int idx) {
   std::array<double, 3> colour = kColours[static_cast<std::size_t>(idx)];
-  const double light = 0.299 * colour[0] + 0.587 * colour[1] + 0.114 * colour[2];
+  const double light = luma_of(colour[0], colour[1], colour[2]);
   for (double& value : colour) value /= light;
   return colour;
 }
@@ -112,33 +111,23 @@ SimulatedScene simulate_fireworks(const SimulateFireworksOptions& options) {
   check_options(options);
   if (options.min_size > options.max_size || options.min_life > options.max_life)
     throw InvalidInput("min_size and min_life must not be above max_size and max_life");
-  SimulatedScene scene;
-  scene.width = options.width;
-  scene.height = options.height;
-  scene.frames_per_sec = options.frames_per_sec;
-  scene.persistence = options.persistence;
-  scene.noise = options.deviation;
-  scene.mean_velocity_y = options.gravity / (1 - options.persistence);
   const Planes background(3, Plane(options.width, options.height, static_cast<float>(kSky)));
-  scene.background = to_image(background);
+  SimulatedScene scene = empty_scene(options, background);
+  scene.mean_velocity_y = options.gravity / (1 - options.persistence);
   Show show(options);
   std::vector<std::vector<Spark>> shown(static_cast<std::size_t>(options.frames));
   for (int t = 0; t < options.frames; ++t) {
     show.advance(t);
     for (const Spark& spark : show.sparks)
-      if (spark.x >= -0.5 && spark.y >= -0.5 && spark.x < options.width - 0.5 && spark.y < options.height - 0.5)
+      if (is_inside(spark.x, spark.y, options.width, options.height))
         scene.points.push_back(
             {t, spark.track, spark.x, spark.y, spark.size, std::atan2(spark.vy, spark.vx), spark.brightness(), 0});
     shown[static_cast<std::size_t>(t)] = show.sparks;
   }
   for (const SimulatedBurst& burst : show.bursts)
     if (burst.num_sparks > 0) scene.bursts.push_back(burst);
-  scene.frames.resize(shown.size());
-  parallel_for(0, options.frames, [&](int t) {
-    Planes planes = background;
+  draw_frames(scene, background, options.frames, options.noise, options.seed, [&](int t, Planes& planes) {
     for (const Spark& spark : shown[static_cast<std::size_t>(t)]) draw_spark(planes, spark);
-    Rng noise = Rng(options.seed).fork(static_cast<std::uint64_t>(kNoise) + static_cast<std::uint64_t>(t));
-    scene.frames[static_cast<std::size_t>(t)] = noisy_picture(std::move(planes), options.noise, noise);
   });
   return scene;
 }

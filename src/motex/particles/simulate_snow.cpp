@@ -5,7 +5,6 @@
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
-#include "motex/core/parallel.h"
 #include "motex/core/rng.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/simulated_picture.h"
@@ -13,7 +12,7 @@
 namespace motex {
 namespace {
 
-constexpr int kDrawing = 1, kPaths = 2, kNoise = 1000;  // streams of the generator
+constexpr int kDrawing = 1, kPaths = 2;  // streams of the generator
 
 struct Flake {
   std::int64_t track = 0;
@@ -88,34 +87,23 @@ SimulatedScene simulate_snow(const SimulateSnowOptions& options) {
   check_options(options);
   if (options.min_size > options.max_size || options.min_amplitude > options.max_amplitude)
     throw InvalidInput("min_size and min_amplitude must not be above max_size and max_amplitude");
-  SimulatedScene scene;
-  scene.width = options.width;
-  scene.height = options.height;
-  scene.frames_per_sec = options.frames_per_sec;
-  scene.persistence = options.persistence;
-  scene.noise = options.deviation;
+  Rng drawing = Rng(options.seed).fork(kDrawing);
+  const Planes background{textured_background(options.width, options.height, options.level, options.texture, drawing)};
+  SimulatedScene scene = empty_scene(options, background);
   scene.mean_velocity_x = options.wind;
   scene.mean_velocity_y = options.fall;
-  const Rng root(options.seed);
-  Rng drawing = root.fork(kDrawing);
-  const Planes background{textured_background(options.width, options.height, options.level, options.texture, drawing)};
-  scene.background = to_image(background);
   Snowfall snow(options);
   std::vector<std::vector<Flake>> shown;
   for (int t = 0; t < options.frames; ++t) {
     if (t > 0) snow.advance();
     for (const Flake& flake : snow.flakes())
-      if (flake.x >= -0.5 && flake.y >= -0.5 && flake.x < options.width - 0.5 && flake.y < options.height - 0.5)
+      if (is_inside(flake.x, flake.y, options.width, options.height))
         scene.points.push_back({t, flake.track, flake.x, flake.y, flake.size, 0, flake.amplitude, 0});
     shown.push_back(snow.flakes());
   }
-  scene.frames.resize(static_cast<std::size_t>(options.frames));
-  parallel_for(0, options.frames, [&](int t) {
-    Planes planes = background;
+  draw_frames(scene, background, options.frames, options.noise, options.seed, [&](int t, Planes& planes) {
     for (const Flake& flake : shown[static_cast<std::size_t>(t)])
       add_blob(planes, {flake.x, flake.y, flake.size, flake.size, 0, {flake.amplitude}});
-    Rng noise = root.fork(static_cast<std::uint64_t>(kNoise) + static_cast<std::uint64_t>(t));
-    scene.frames[static_cast<std::size_t>(t)] = noisy_picture(std::move(planes), options.noise, noise);
   });
   return scene;
 }

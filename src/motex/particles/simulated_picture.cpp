@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motex/core/parallel.h"
 #include "motex/particles/parzen.h"
 
 namespace motex {
@@ -71,6 +72,18 @@ Image noisy_picture(Planes planes, double noise, Rng& rng) {
     for (Plane& plane : planes)
       for (float& value : plane.values) value += static_cast<float>(noise * rng.normal());
   return to_image(planes);
+}
+
+void draw_frames(SimulatedScene& scene, const Planes& background, int num_frames, double noise, std::uint64_t seed,
+                 const std::function<void(int frame, Planes& planes)>& draw) {
+  constexpr std::uint64_t kNoise = 1000;  // streams of the generator, one a frame
+  scene.frames.resize(static_cast<std::size_t>(num_frames));
+  parallel_for(0, num_frames, [&](int t) {
+    Planes planes = background;
+    draw(t, planes);
+    Rng rng = Rng(seed).fork(kNoise + static_cast<std::uint64_t>(t));
+    scene.frames[static_cast<std::size_t>(t)] = noisy_picture(std::move(planes), noise, rng);
+  });
 }
 
 int draw_poisson(Rng& rng, double mean) {

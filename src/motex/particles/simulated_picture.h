@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 
 #include "motex/core/rng.h"
 #include "motex/image/planes.h"
+#include "motex/particles/simulate.h"
 
 /// What the simulators draw with.
 namespace motex {
@@ -27,6 +30,23 @@ Plane textured_background(int width, int height, double level, double texture, R
 
 /// Adds noise of that deviation, rounds and cuts to 8 bits.
 Image noisy_picture(Planes planes, double noise, Rng& rng);
+
+/// A scene of that size, rate and movement, as yet without elements.
+template <typename Options>
+SimulatedScene empty_scene(const Options& options, const Planes& background) {
+  SimulatedScene scene;
+  scene.width = options.width;
+  scene.height = options.height;
+  scene.frames_per_sec = options.frames_per_sec;
+  scene.persistence = options.persistence;
+  scene.noise = options.deviation;
+  scene.background = to_image(background);
+  return scene;
+}
+
+/// Fills in num_frames pictures: the background, what `draw` puts on it in that frame, and noise of that deviation.
+void draw_frames(SimulatedScene& scene, const Planes& background, int num_frames, double noise, std::uint64_t seed,
+                 const std::function<void(int frame, Planes& planes)>& draw);
 
 /// Poisson distributed.
 int draw_poisson(Rng& rng, double mean);

@@ -35,7 +35,7 @@ FallingDots make_falling_dots(int num_frames, double noise, std::uint64_t seed) 
       for (int t = 0; t < num_frames; ++t) {
         const double x = x0 + kRight * t, y = y0 + kDown * t;
         add_blob(frames[static_cast<std::size_t>(t)], {x, y, kScale, kScale, 0, {kPeak}});
-        if (!(x >= -0.5 && y >= -0.5 && x < kWidth - 0.5 && y < kHeight - 0.5)) continue;
+        if (!is_inside(x, y, kWidth, kHeight)) continue;
         if (cable.core.empty()) cable.first_frame = t;
         Base base{BaseKind::kGaussian, x, y, kScale, 0, {}};
         base.coefficients.fill(static_cast<float>(coefficient_of_peak(base, kPeak)));

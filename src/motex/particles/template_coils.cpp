@@ -21,11 +21,6 @@ struct Member {
   double luma = 0;
 };
 
-double luma_of(const RelativeBase& base, int num_planes) {
-  if (num_planes < 3) return base.coefficient[0];
-  return 0.299 * base.coefficient[0] + 0.587 * base.coefficient[1] + 0.114 * base.coefficient[2];
-}
-
 /// Half turns of an oriented base that bring it nearest to another angle; Gsin changes its sign with each.
 void turn_towards(Member& member, double angle) {
   if (!is_oriented(member.base.kind)) return;
@@ -81,7 +76,7 @@ Member middle_of(const std::vector<Member>& members, const std::vector<std::size
   mean.base.log_scale /= num;
   mean.base.angle /= num;
   for (double& coefficient : mean.base.coefficient) coefficient /= num;
-  mean.luma = luma_of(mean.base, num_planes);
+  mean.luma = luma_coefficient(mean.base, num_planes);
   return mean;
 }
 
@@ -127,7 +122,7 @@ std::vector<TemplateCoil> common_coils(const std::vector<std::vector<RelativeBas
   std::size_t num_movetons = 0;
   for (std::size_t i = 0; i < movetons.size(); i += stride, ++num_movetons)
     for (const RelativeBase& base : movetons[i])
-      if (const double luma = luma_of(base, num_planes); std::abs(luma) > 0.02)
+      if (const double luma = luma_coefficient(base, num_planes); std::abs(luma) > 0.02)
         members.push_back({num_movetons, base, luma});
   std::vector<TemplateCoil> coils;
   while (static_cast<int>(coils.size()) < max_coils && !members.empty()) {

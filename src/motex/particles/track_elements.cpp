@@ -8,6 +8,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/parallel.h"
+#include "motex/core/quantile.h"
 #include "motex/particles/fit_element_model.h"
 
 namespace motex {
@@ -27,34 +28,11 @@ void check(const ClipFrames& frames, const Plane& background) {
       throw InvalidInput("the frames and the background of a clip must have one size");
 }
 
-Plane minus(Plane a, const Plane& b) {
-  for (std::size_t i = 0; i < a.values.size(); ++i) a.values[i] -= b.values[i];
-  return a;
-}
-
-Sight sight_of(const Blob& blob, int frame) {
-  const double amplitude = std::max(std::abs(blob.amplitude), 1e-6), relative = blob.amplitude_spread / amplitude;
-  return {blob.x,
-          blob.y,
-          std::log(amplitude),
-          blob.log_scale,
-          blob.place_spread * blob.place_spread,
-          relative * relative,
-          blob.log_scale_spread * blob.log_scale_spread,
-          frame};
-}
-
 std::vector<std::vector<Sight>> sights_of(const BlobFrames& blobs) {
   std::vector<std::vector<Sight>> sights(blobs.size());
   for (std::size_t t = 0; t < blobs.size(); ++t)
     for (const Blob& blob : blobs[t]) sights[t].push_back(sight_of(blob, static_cast<int>(t)));
   return sights;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// One frame of a cable on the way to its base.
@@ -88,7 +66,7 @@ class Expectations {
       one.blob = blob_at(blobs_, chain, k);
       one.is_seen = chain.sights[k].frame == frame;
       if (is_sure) set_prior(chain, places[i], k, one);
-      if (!one.is_seen && !is_inside(places[i])) continue;
+      if (!one.is_seen && !is_inside(places[i].x, places[i].y, width_, height_)) continue;
       frames_[static_cast<std::size_t>(frame)].push_back(one);
     }
   }
@@ -96,10 +74,6 @@ class Expectations {
   const std::vector<ExpectedBlob>& at(int frame) const { return frames_[static_cast<std::size_t>(frame)]; }
 
  private:
-  bool is_inside(const SmoothedPlace& place) const {
-    return place.x > -0.5 && place.y > -0.5 && place.x < width_ - 0.5 && place.y < height_ - 0.5;
-  }
-
   /// Typical of the sights of the path near k, and how much single ones differ.
   double typical(const SightChain& chain, std::size_t k, double Blob::*field, double& deviation) const {
     std::vector<double> values;
@@ -204,6 +178,18 @@ Cable cable_of(const SightChain& chain, const BlobFrames& blobs, const ElementMo
 }
 
 }  // namespace
+
+Sight sight_of(const Blob& blob, int frame) {
+  const double amplitude = std::max(std::abs(blob.amplitude), 1e-6), relative = blob.amplitude_spread / amplitude;
+  return {blob.x,
+          blob.y,
+          std::log(amplitude),
+          blob.log_scale,
+          blob.place_spread * blob.place_spread,
+          relative * relative,
+          blob.log_scale_spread * blob.log_scale_spread,
+          frame};
+}
 
 std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& background, double noise,
                                   const TrackElementsOptions& options, const JobContext& job,

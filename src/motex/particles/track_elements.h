@@ -33,6 +33,9 @@ struct TrackElementsReport {
   double detections_per_frame = 0;
 };
 
+/// A detection for the linking, with what the fit says of its errors.
+Sight sight_of(const Blob& blob, int frame);
+
 /// Cables of single core bases from frames: detection in each frame, linking, then detection again with the elements
 /// expected where their paths lead (so that overlapping ones are told apart and gaps are filled on the image), with the
 /// background and the noise re-estimated from what the elements leave.

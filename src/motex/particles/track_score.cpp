@@ -8,6 +8,7 @@
 #include <map>
 
 #include "motex/core/error.h"
+#include "motex/image/planes.h"
 #include "motex/particles/best_pairs.h"
 
 namespace motex {
@@ -128,7 +129,7 @@ std::vector<Track> visible_part(const std::vector<Track>& tracks, int width, int
   for (const Track& track : tracks) {
     Track part{track.id, {}};
     for (const TrackPoint& p : track.points) {
-      const bool inside = width == 0 || (p.x >= -0.5 && p.y >= -0.5 && p.x < width - 0.5 && p.y < height - 0.5);
+      const bool inside = width == 0 || is_inside(p.x, p.y, width, height);
       if (inside && p.amplitude != 0) part.points.push_back(p);
     }
     if (!part.points.empty()) out.push_back(std::move(part));

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <numbers>
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
@@ -33,6 +35,16 @@ void append(Drawing& target, const Drawing& source, Point offset) {
     std::visit(Mover{offset}, shape);
     target.add(std::move(shape));
   }
+}
+
+Polyline ring(Point centre, double radius, Rgba colour, double width) {
+  constexpr int kCorners = 24;
+  Polyline line{{}, colour, width, 0};
+  for (int k = 0; k <= kCorners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / kCorners;
+    line.points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return line;
 }
 
 std::vector<Point> rectangle(Point top_left, double width, double height) {

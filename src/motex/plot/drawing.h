@@ -32,6 +32,9 @@ struct Polyline {
   double dash = 0;
 };
 
+/// A circle's line, of 24 corners.
+Polyline ring(Point centre, double radius, Rgba colour, double width);
+
 /// The inside of a closed outline that does not cross itself.
 struct Polygon {
   std::vector<Point> points;

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "motex/core/base64.h"
+#include "motex/core/xml_escape.h"
 #include "motex/image/png.h"
 #include "motex/plot/drawing.h"
 #include "motex/plot/stroke_font.h"
@@ -41,26 +42,6 @@ std::string point_list(const std::vector<Point>& points) {
   return attribute("points", out);
 }
 
-/// Characters that XML forbids become U+FFFD.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20 && c != '\t')
-      out += "\xef\xbf\xbd";
-    else
-      out += c;
-  }
-  return out;
-}
-
 class SvgWriter {
  public:
   std::string body;
@@ -91,7 +72,7 @@ class SvgWriter {
       body += attribute("textLength", text_width(s.text, s.size)) + " lengthAdjust=\"spacingAndGlyphs\"";
     if (s.bold) body += " font-weight=\"600\"";
     if (s.upwards) body += attribute("transform", "rotate(-90 " + number(s.anchor.x) + ' ' + number(s.anchor.y) + ')');
-    body += '>' + escaped(s.text) + "</text>\n";
+    body += '>' + xml_escaped(s.text) + "</text>\n";
   }
 
   void operator()(const Picture& s) {

@@ -13,7 +13,6 @@ namespace motex {
 namespace {
 
 constexpr Rgba kPositive{20, 20, 20, 255}, kNegative{40, 90, 200, 255};
-constexpr int kRingCorners = 24;
 
 double strength(const Base& base, int num_planes) {
   double sum = 0;
@@ -26,15 +25,6 @@ double usual_full_ink(const BaseMap& map) {
   for (const Base& base : map.bases) sizes.push_back(std::abs(strength(base, map.num_planes)));
   std::sort(sizes.begin(), sizes.end());
   return sizes.empty() ? 1 : std::max(1e-9, sizes[sizes.size() * 9 / 10]);
-}
-
-Polyline ring(Point centre, double radius, Rgba colour, double width) {
-  Polyline line{{}, colour, width, 0};
-  for (int k = 0; k <= kRingCorners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kRingCorners;
-    line.points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
-  }
-  return line;
 }
 
 /// The four corners of a bar along v, half as wide as the middle lobe.

@@ -40,12 +40,6 @@ PursueOptions pursue_options(const DecomposeOptions& options) {
   return pursue;
 }
 
-Planes minus(Planes a, const Planes& b) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (std::size_t i = 0; i < a[k].values.size(); ++i) a[k].values[i] -= b[k].values[i];
-  return a;
-}
-
 /// What is shown: bases may overshoot, screens do not.
 void cut_off(Planes& planes) {
   for (Plane& plane : planes)
@@ -77,14 +71,6 @@ std::vector<Planes> frames_over_the_whole(const std::filesystem::path& video, st
   return frames;
 }
 
-JobContext part_of(const JobContext& job, double from, double to) {
-  JobContext part = job;
-  part.on_progress = [&job, from, to](std::string_view stage, double fraction) {
-    job.progress(stage, from + (to - from) * fraction);
-  };
-  return part;
-}
-
 }  // namespace
 
 FrameDecomposition decompose_frame(const std::filesystem::path& video, std::int64_t frame,
@@ -114,7 +100,7 @@ FrameDecomposition decompose_frame(const std::filesystem::path& video, std::int6
     throw InvalidInput(video.string() + ": frame " + std::to_string(frame) + " cannot be decoded; the file is damaged");
   result.background_kind = options.background;
   result.background = estimate_background(result.observed, around, result.background_kind);
-  decompose(result, counts, options, part_of(job, 0.25, 1));
+  decompose(result, counts, options, job.part(0.25, 1));
   return result;
 }
 

@@ -35,33 +35,24 @@ HeldOutSplit split_clips(std::vector<Clip> clips, int split) {
   return parts;
 }
 
-JobContext part_of_job(const JobContext& job, double from, double to) {
-  JobContext part = job;
-  if (job.on_progress)
-    part.on_progress = [whole = job.on_progress, from, to](std::string_view stage, double fraction) {
-      whole(stage, from + (to - from) * fraction);
-    };
-  return part;
-}
-
 HeldOutReport held_out_score(std::vector<Clip> clips, int split, const LearnOptions& options, const JobContext& job) {
   const HeldOutSplit parts = split_clips(std::move(clips), split);
   HeldOutReport report;
   for (const Clip& clip : parts.held_out) report.held_out_clips.push_back(clip.name);
-  const MotionTexture model = learn_motion_texture(parts.training, options, report.learned, part_of_job(job, 0, 0.45));
-  const ScoreReport score = score_clips(model, parts.held_out, part_of_job(job, 0.45, 0.5));
+  const MotionTexture model = learn_motion_texture(parts.training, options, report.learned, job.part(0, 0.45));
+  const ScoreReport score = score_clips(model, parts.held_out, job.part(0.45, 0.5));
   report.log_likelihood_per_frame = score.log_likelihood_per_frame;
   report.global_lds_log_likelihood_per_frame = score.global_lds_log_likelihood_per_frame;
   report.num_frames = score.num_frames;
 
   LearnOptions control = options;
   control.common_dynamics = true;
-  JobContext quiet = part_of_job(job, 0.5, 0.95);
+  JobContext quiet = job.part(0.5, 0.95);
   quiet.on_warning = {};
   LearnReport control_report;
   const MotionTexture noise_only = learn_motion_texture(parts.training, control, control_report, quiet);
   report.noise_only_log_likelihood_per_frame =
-      score_clips(noise_only, parts.held_out, part_of_job(job, 0.95, 1)).log_likelihood_per_frame;
+      score_clips(noise_only, parts.held_out, job.part(0.95, 1)).log_likelihood_per_frame;
   return report;
 }
 

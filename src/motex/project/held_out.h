@@ -35,7 +35,4 @@ struct HeldOutReport {
 HeldOutReport held_out_score(std::vector<Clip> clips, int split, const LearnOptions& options,
                              const JobContext& job = {});
 
-/// The job with its progress in from … to of the whole.
-JobContext part_of_job(const JobContext& job, double from, double to);
-
 }  // namespace motex

@@ -34,7 +34,7 @@ void add_frame(Drawing& drawing, double left, double top, double width, double h
 
 double luma_mean(const std::array<Spread, 3>& coefficient, int num_planes) {
   if (num_planes < 3) return coefficient[0].mean;
-  return 0.299 * coefficient[0].mean + 0.587 * coefficient[1].mean + 0.114 * coefficient[2].mean;
+  return luma_of(coefficient[0].mean, coefficient[1].mean, coefficient[2].mean);
 }
 
 /// One state: mean bases around a core of scale 1 at the origin, as a map of that size around it.

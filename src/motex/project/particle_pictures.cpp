@@ -66,9 +66,7 @@ Drawing base_functions_picture(double cell) {
 
 Drawing paths_picture(const std::vector<Cable>& cables, int width, int height, double magnification, int min_frames) {
   Drawing drawing = sheet(width * magnification, height * magnification);
-  const auto inside = [&](const Base& core) {
-    return core.x >= -0.5 && core.y >= -0.5 && core.x < width - 0.5 && core.y < height - 0.5;
-  };
+  const auto inside = [&](const Base& core) { return is_inside(core.x, core.y, width, height); };
   const double radius = cables.size() > 300 ? 0.9 : 1.6;
   for (const Cable& cable : cables) {
     if (cable.num_frames() < min_frames) continue;

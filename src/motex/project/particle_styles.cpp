@@ -136,7 +136,7 @@ void StylePainter::draw_symbols(const MovetonFrame& frame, Drawing& drawing) con
   map.width = model_width_;
   map.height = model_height_;
   for (const Base& base : frame.bases)
-    if (base.scale > 0 && base.x >= -0.5 && base.y >= -0.5 && base.x < map.width - 0.5 && base.y < map.height - 0.5)
+    if (base.scale > 0 && is_inside(base.x, base.y, map.width, map.height))
       map.bases.push_back(in_grey(base, num_planes_));
   append(drawing, base_sketch(map, magnification_, full_ink_), {0, 0});
 }

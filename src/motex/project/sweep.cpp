@@ -49,9 +49,9 @@ double description_length(const MotionTexture& model, double log_likelihood, dou
 
 SweepPoint learn_point(const HeldOutSplit& split, const LearnOptions& options, const JobContext& job) {
   LearnReport report;
-  const MotionTexture model = learn_motion_texture(split.training, options, report, part_of_job(job, 0, 0.9));
-  const ScoreReport training = score_clips(model, split.training, part_of_job(job, 0.9, 0.98));
-  const ScoreReport held_out = score_clips(model, split.held_out, part_of_job(job, 0.98, 1));
+  const MotionTexture model = learn_motion_texture(split.training, options, report, job.part(0, 0.9));
+  const ScoreReport training = score_clips(model, split.training, job.part(0.9, 0.98));
+  const ScoreReport held_out = score_clips(model, split.held_out, job.part(0.98, 1));
   SweepPoint point;
   point.threshold = report.threshold;
   point.is_auto = options.threshold == 0;
@@ -143,14 +143,14 @@ std::vector<SweepPoint> sweep_threshold(const HeldOutSplit& split, const std::ve
   if (wanted.empty()) {
     done = 1.0 / 7;
     learn.threshold = 0;
-    points.push_back(learn_point(split, learn, part_of_job(job, 0, done)));
+    points.push_back(learn_point(split, learn, job.part(0, done)));
     const bool around = points[0].threshold > 0;
     for (int i = 0; i < 6; ++i) wanted.push_back(around ? kFactors[i] * points[0].threshold : kBayesFactors[i]);
   }
   const double step = (1 - done) / static_cast<double>(wanted.size());
   for (const double threshold : wanted) {
     learn.threshold = threshold;
-    const JobContext part = part_of_job(job, done, done + step);
+    const JobContext part = job.part(done, done + step);
     points.push_back(learn_point(split, learn, points.empty() ? part : without_warnings(part)));
     done += step;
   }

@@ -9,6 +9,8 @@
 #include <map>
 
 #include "motex/core/error.h"
+#include "motex/core/trimmed.h"
+#include "motex/image/planes.h"
 
 namespace motex {
 namespace {
@@ -23,18 +25,13 @@ const std::array<std::vector<std::string_view>, kNumColumns> kNames{{{"frame", "
                                                                      {"scale", "size", "sigma"},
                                                                      {"angle", "theta"}}};
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kSpace = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kSpace);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-}
+constexpr std::string_view kBlanks = " \t\r\"";  // around a cell
 
 std::vector<std::string_view> split(std::string_view line, char separator) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at <= line.size();) {
     const std::size_t end = std::min(line.find(separator, at), line.size());
-    words.push_back(trimmed(line.substr(at, end - at)));
+    words.push_back(trimmed(line.substr(at, end - at), kBlanks));
     at = end + 1;
   }
   return words;
@@ -76,7 +73,7 @@ class TableReader {
   bool next_row(std::vector<std::string_view>& words) {
     std::string_view line;
     while (next_line(line))
-      if (!trimmed(line).empty() && line[0] != '#') {
+      if (!trimmed(line, kBlanks).empty() && line[0] != '#') {
         words = split(line, separator_);
         return true;
       }
@@ -96,7 +93,7 @@ class TableReader {
 
   void read_heading(bool needs_track) {
     std::string_view line;
-    while (next_line(line) && trimmed(line).empty()) {
+    while (next_line(line) && trimmed(line, kBlanks).empty()) {
     }
     for (const char separator : {',', ';', '\t'})
       if (line.find(separator) != std::string_view::npos) {
@@ -170,8 +167,7 @@ std::vector<TrackPoint> parse_points_csv(std::string_view text, const std::strin
 }
 
 void TrackCsv::append(std::int64_t track, const TrackPoint& point, std::string& text) {
-  const bool inside = point.x >= -0.5 && point.y >= -0.5 && point.x < width_ - 0.5 && point.y < height_ - 0.5;
-  if (!inside) return;
+  if (!is_inside(point.x, point.y, width_, height_)) return;
   ++num_rows_;
   std::array<char, 32> word{};
   for (const std::int64_t whole : {track, point.frame}) {

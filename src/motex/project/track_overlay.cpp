@@ -15,17 +15,7 @@ namespace {
 
 constexpr int kWantedWidth = 960;
 constexpr int kMostMagnified = 4;
-constexpr int kRingCorners = 20;
 constexpr int kTrailPieces = 4;  // each of one opacity
-
-Polyline ring(Point centre, double radius, Rgba colour) {
-  Polyline line{{}, colour, 1.25, 0};
-  for (int k = 0; k <= kRingCorners; ++k) {
-    const double angle = 2 * std::numbers::pi * k / kRingCorners;
-    line.points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
-  }
-  return line;
-}
 
 }  // namespace
 
@@ -62,7 +52,7 @@ Image TrackOverlay::draw(const Image& picture, std::int64_t frame) const {
       if (line.points.size() > 1) drawing.add(std::move(line));
     }
     const TrackPoint& last = *(end - 1);
-    if (last.frame == frame) drawing.add(ring(place(last), zoom * std::max(2.0, 2 * last.scale), colour));
+    if (last.frame == frame) drawing.add(ring(place(last), zoom * std::max(2.0, 2 * last.scale), colour, 1.25));
   }
   return render(drawing);
 }

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "motex/core/xml_escape.h"
 #include "motex/particles/track_score.h"
 
 namespace motex {
@@ -26,23 +27,6 @@ std::string number(std::int64_t value) { return std::to_string(value); }
 std::string number(std::size_t value) { return std::to_string(value); }
 std::string number(int value) { return std::to_string(value); }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (static_cast<unsigned char>(c) >= 0x20)
-      result += c;
-  }
-  return result;
-}
-
 template <typename T>
 void attribute(std::string& xml, const char* name, const T& value) {
   xml += ' ';
@@ -51,7 +35,7 @@ void attribute(std::string& xml, const char* name, const T& value) {
   if constexpr (std::is_arithmetic_v<T>)
     xml += number(value);
   else
-    xml += escaped(value);
+    xml += xml_escaped(value);
   xml += '"';
 }
 

@@ -10,6 +10,7 @@
 
 #include "motex/core/base64.h"
 #include "motex/core/error.h"
+#include "motex/core/xml_escape.h"
 #include "motex/plot/colour.h"
 #include "motex/project/figure.h"
 #include "motex/project/viewer_source.h"
@@ -117,19 +118,6 @@ std::string script_safe(const json& data) {
   return out;
 }
 
-std::string html_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string page_data(const FigureMotion& motion, const std::string& title, const std::vector<TextonSpan>& spans) {
   const Figure& figure = motion.figure;
   FrameMatrix points = motion.points;
@@ -172,7 +160,7 @@ std::string viewer_page(const FigureMotion& motion, const std::vector<TextonSpan
   fill("@SCRIPT@", kViewerJs);
   fill("@DATA@", page_data(motion, title, spans));
   fill("@STYLE@", kViewerCss);
-  fill("@TITLE@", html_escaped(title));
+  fill("@TITLE@", xml_escaped(title));
   return page;
 }
 
