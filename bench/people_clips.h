@@ -10,11 +10,12 @@
 #include "motex/people/measure_silhouette.h"
 #include "motex/people/people_texture.h"
 #include "motex/people/sprite.h"
+#include "motex/project/keyed_footage.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex::bench {
 
-/// Footage of one actor as sprites, one take a stretch.
+/// Footage of one actor as sprites.
 struct PeopleClip {
   PeopleTexture texture;
   std::vector<Sprite> sprites;
@@ -25,11 +26,11 @@ inline void add_frame(PeopleClip& clip, Sprite sprite) {
   clip.sprites.push_back(std::move(sprite));
 }
 
-/// dancer1: a green screen and its true matte as a second video; takes end at hard cuts.
+/// dancer1: a green screen and its true matte as a second video; takes end at the hard cuts.
 inline PeopleClip load_dancer(const std::string& folder) {
   PeopleClip clip;
-  VideoReader colour(folder + "/dancer1_fullbody_green_640x360.mp4"),
-      matte(folder + "/dancer1_fullbody_matte_640x360.mkv");
+  VideoReader colour(folder + "/dancer1_fullbody_green_640x360.mp4");
+  VideoReader matte(folder + "/dancer1_fullbody_matte_640x360.mkv");
   for (VideoFrame frame, alpha; colour.next(frame) && matte.next(alpha);) {
     for (std::size_t i = 0; i < frame.image.pixels.size(); ++i) {
       Rgba& pixel = frame.image.pixels[i];
@@ -43,6 +44,17 @@ inline PeopleClip load_dancer(const std::string& folder) {
   const std::vector<int> starts{0, 335, 531, 769, clip.texture.num_frames()};
   for (std::size_t i = 0; i + 1 < starts.size(); ++i)
     clip.texture.takes.push_back({"dancer1", starts[i], 0, false, {starts[i], starts[i + 1] - starts[i]}});
+  return clip;
+}
+
+/// A clip without cuts, keyed.
+inline PeopleClip load_keyed(const std::string& path) {
+  PeopleClip clip;
+  KeyedFootage footage(path);
+  clip.texture.width = footage.info().width, clip.texture.height = footage.info().height;
+  clip.texture.frames_per_sec = footage.info().frames_per_sec;
+  for (KeyedFrame frame; footage.next(frame);) add_frame(clip, std::move(frame.sprite));
+  clip.texture.takes = {{path, 0, 0, false, {0, clip.texture.num_frames()}}};
   return clip;
 }
 
