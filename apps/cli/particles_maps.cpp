@@ -151,8 +151,10 @@ Command particles_maps() {
       {"particles maps", "where elements are born, are, and die",
        "source.png, sink.png and occupancy.png are densities, 255 = the largest; hazard.png is 255 times the square "
        "root "
-       "of the probability to die before the next frame. source.png and sink.png can be painted and given to particles "
-       "synthesize (--source-map, --sink-map), where only proportions count. maps.png shows all with scales; "
+       "of the probability to die before the next frame. source.png, sink.png and hazard.png can be painted and given "
+       "to "
+       "particles synthesize (--source-map, --sink-map, --hazard-map); of the first two only proportions count. "
+       "maps.png shows all with scales; "
        "births.csv, deaths.csv, bursts.csv, maps.json.",
        "motex particles maps snow.motex -o snow_maps\n"
        "motex particles maps fireworks.motex -o maps --json"});

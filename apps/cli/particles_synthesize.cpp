@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "closest.h"
+#include "colour_argument.h"
 #include "commands.h"
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
@@ -23,9 +22,9 @@
 #include "motex/video_io/video_writer.h"
 #include "options_value.h"
 #include "output_file.h"
-#include "output_folder.h"
 #include "particles_model.h"
 #include "text_table.h"
+#include "video_output.h"
 
 namespace motex::cli {
 namespace {
@@ -35,24 +34,6 @@ namespace fs = std::filesystem;
 constexpr double kMaxFrames = 2e7;
 
 Image read_png(const std::string& path) { return decode_png(read_file(path), path); }
-
-/// "#rrggbb" or a name.
-std::optional<Rgba> colour_of(const std::string& text) {
-  constexpr std::array<std::pair<const char*, Rgba>, 6> kNamed{{{"black", {0, 0, 0, 255}},
-                                                                {"white", {255, 255, 255, 255}},
-                                                                {"gray", {128, 128, 128, 255}},
-                                                                {"grey", {128, 128, 128, 255}},
-                                                                {"green", {0, 177, 64, 255}},
-                                                                {"blue", {0, 71, 187, 255}}}};
-  for (const auto& [name, colour] : kNamed)
-    if (text == name) return colour;
-  unsigned number = 0;
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  const auto [end, code] = std::from_chars(text.data() + 1, text.data() + 7, number, 16);
-  if (code != std::errc() || end != text.data() + 7) return std::nullopt;
-  return Rgba{static_cast<std::uint8_t>(number >> 16U), static_cast<std::uint8_t>(number >> 8U),
-              static_cast<std::uint8_t>(number), 255};
-}
 
 enum class From { kSynthesis, kLearned };
 enum class Style { kPhoto, kSymbolic, kCartoon };
@@ -75,7 +56,7 @@ struct DrawOptions {
 };
 
 struct Synthesize {
-  std::string model_path, output, wind, source_map, sink_map, looks, edits_path, background;
+  std::string model_path, output, wind, source_map, sink_map, hazard_map, looks, edits_path, background;
   std::int64_t frames = 0;
   double secs = 0;
   SynthesizeParticlesOptions options;
@@ -97,7 +78,10 @@ struct Synthesize {
     arguments.value("--wind", "X,Y", "added to the mean velocity, pixels a frame (default 0,0)", wind);
     arguments.value("--source-map", "PNG", "births where it is bright (any size; motex particles maps writes one)",
                     source_map);
-    arguments.value("--sink-map", "PNG", "deaths where it is bright", sink_map);
+    arguments.value("--sink-map", "PNG", "deaths where it is bright, as many as learned", sink_map);
+    arguments.value("--hazard-map", "PNG",
+                    "deaths by how bright it is: white = at once, gray level L = with probability (L/255)^2 a frame",
+                    hazard_map);
     arguments.value("--edits", "JSON",
                     "elements put in, moved and taken out by hand: {\"insert\": [{\"frame\", \"x\", \"y\", \"vx\", "
                     "\"vy\", \"species\"}], \"move\": [{\"track\", \"dx\", \"dy\"}], \"remove\": [track]}",
@@ -153,12 +137,13 @@ struct Synthesize {
   std::unique_ptr<MovetonSource> make_water(const TexturedMotion& model, std::int64_t num_frames) const {
     const bool placed = options.rate != 1 || options.gravity != 0 || options.speed != 1 || options.uniform ||
                         options.appearance != ParticleAppearance::kReplay || !wind.empty() || !source_map.empty() ||
-                        !sink_map.empty() || !looks.empty();
+                        !sink_map.empty() || !hazard_map.empty() || !looks.empty();
     if (placed)
-      throw InvalidInput(model_path +
-                         ": is a model of water, whose bases are born together; --rate, --gravity, --speed, --uniform, "
-                         "--appearance, --wind, --source-map, --sink-map and --template go with elements (learn with "
-                         "--tracking cores)");
+      throw InvalidInput(
+          model_path +
+          ": is a model of water, whose bases are born together; --rate, --gravity, --speed, --uniform, "
+          "--appearance, --wind, --source-map, --sink-map, --hazard-map and --template go with elements (learn with "
+          "--tracking cores)");
     return std::make_unique<WaterSource>(model, WaterReplayOptions{}, options.seed, options.loop ? num_frames : 0);
   }
 
@@ -178,33 +163,10 @@ struct Synthesize {
           "--wind go with new ones");
     check_options(draw);
     if (draw.three_d && draw.style != Style::kPhoto) throw InvalidInput("--three-d goes with --style photo");
-    const bool is_pattern = output.find('%') != std::string::npos;
-    if (extension_of(output).empty())
-      check_output_folder(output, session);
-    else if (extension_of(output) == ".png" && !is_pattern)
-      throw InvalidInput(output + ": PNG files are numbered: write NAME_%04d.png, or a folder");
-    else if (is_pattern)
-      check_pattern(session);
-    else
-      check_output(output, writable_video_extensions(), session);
+    check_video_output(output, session);
     check_output(outputs.tracks.string(), {".csv"}, session);
     check_output(outputs.layer.string(), {".mov"}, session);
     if (outputs.layer == outputs.video) throw InvalidInput(output + ": is the name of the layer; choose another");
-  }
-
-  void check_pattern(const Session& session) const {
-    const fs::path parent = fs::path(output).parent_path();
-    if (extension_of(output) != ".png") throw InvalidInput(output + ": pictures are written as .png");
-    if (!parent.empty() && !fs::is_directory(parent))
-      throw InvalidInput(output + ": there is no folder " + parent.string());
-    const std::string name = fs::path(output).filename().string(), head = name.substr(0, name.find('%'));
-    if (session.flags.force) return;
-    for (const fs::directory_entry& entry : fs::directory_iterator(parent.empty() ? "." : parent)) {
-      const std::string found = entry.path().filename().string();
-      const bool numbered = found.size() > head.size() && found.starts_with(head) && found.ends_with(".png") &&
-                            std::isdigit(static_cast<unsigned char>(found[head.size()])) != 0;
-      if (numbered) throw InvalidInput(entry.path().string() + ": exists; --force replaces such files");
-    }
   }
 
   std::int64_t wanted_frames(const TexturedMotion& model) const {
@@ -226,6 +188,8 @@ struct Synthesize {
     }
     if (!source_map.empty()) options.source_map = density_of_image(read_png(source_map), model.width, model.height);
     if (!sink_map.empty()) options.sink_map = density_of_image(read_png(sink_map), model.width, model.height);
+    if (!hazard_map.empty()) options.hazard_map = hazard_of_image(read_png(hazard_map), model.width, model.height);
+    if (!sink_map.empty() && !hazard_map.empty()) throw InvalidInput("--sink-map and --hazard-map exclude each other");
     if (options.uniform && !source_map.empty()) throw InvalidInput("--uniform and --source-map exclude each other");
     if (looks.empty()) return;
     const bool is_number =

@@ -253,6 +253,21 @@ DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map) {
   return law;
 }
 
+DeathLaw death_law_of_hazard(const Plane& hazard) {
+  Plane pixels(num_cells(hazard.width), num_cells(hazard.height));
+  DeathLaw law;
+  law.by_place = pixels;
+  for (int y = 0; y < hazard.height; ++y)
+    for (int x = 0; x < hazard.width; ++x) {
+      const float probability = std::clamp(hazard.at(x, y), 0.0F, 1.0F);
+      law.by_place.at(x / DeathLaw::kCell, y / DeathLaw::kCell) += probability;
+      pixels.at(x / DeathLaw::kCell, y / DeathLaw::kCell) += 1;
+      law.mean += static_cast<double>(probability) / static_cast<double>(hazard.values.size());
+    }
+  for (std::size_t i = 0; i < pixels.values.size(); ++i) law.by_place.values[i] /= pixels.values[i];
+  return law;
+}
+
 std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std::vector<CableFate>& fates,
                                          const DeathLaw& deaths, double kappa, Rng& rng) {
   double num_inside = 0, num_presences = 0;

@@ -47,6 +47,8 @@ double learn_frailties(const TexturedMotion& model, const DeathLaw& deaths, std:
 /// Deaths where a map says so: its brightness shares out the deaths that the clip has a frame, those by leaving the
 /// picture included. map: size of the picture.
 DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map);
+/// Deaths with the probability that stands at the place. hazard: 0 … 1, size of the picture.
+DeathLaw death_law_of_hazard(const Plane& hazard);
 
 /// A cable of the clip as an example of how elements come, what was not seen of it made up: where the clip cut it, it
 /// goes on at its velocity to the border, or ends inside as often as others do.

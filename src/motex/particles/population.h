@@ -41,6 +41,7 @@ class CableSynthesizer::Population {
   double calibrated_rate(const JobContext& job);
   BirthSettings settings() const;
   MotionEdit edited_motion() const;
+  bool has_painted_deaths() const { return !options_.sink_map.values.empty() || !options_.hazard_map.values.empty(); }
 
   void be_born(std::vector<ElementBirth>& births);
   void add(const ElementBirth& birth);
@@ -54,6 +55,7 @@ class CableSynthesizer::Population {
   void move(Element& element);
   /// Whether it is still there.
   bool survives(Element& element);
+  bool is_outside(double x, double y, double margin) const;
   bool is_inside(const Element& element) const;
   bool is_in_sight(const Element& element) const;
   double learned_per_frame(bool with_bursts) const;

@@ -21,9 +21,11 @@ void check_request(const TexturedMotion& model, const SynthesizeParticlesOptions
     throw InvalidInput("the model has no picture size or no frames; learn it again");
   if (!std::isfinite(options.wind_x) || !std::isfinite(options.wind_y))
     throw InvalidInput("the wind must be two finite numbers, pixels a frame");
-  if (!options.sink_map.values.empty() &&
-      (options.sink_map.width != model.width || options.sink_map.height != model.height))
-    throw InvalidInput("the map of sinks has another size than the model's picture");
+  for (const Plane* map : {&options.sink_map, &options.hazard_map})
+    if (!map->values.empty() && (map->width != model.width || map->height != model.height))
+      throw InvalidInput("the map of deaths has another size than the model's picture");
+  if (!options.sink_map.values.empty() && !options.hazard_map.values.empty())
+    throw InvalidInput("a map of sinks and one of the hazard exclude each other");
   const TexturedMotion& looks = options.looks_of != nullptr ? *options.looks_of : model;
   const auto num_templates = static_cast<int>(looks.templates.size());
   if (options.looks_of_species >= num_templates)

@@ -34,6 +34,7 @@ struct SynthesizeParticlesOptions {
   double wind_x = 0, wind_y = 0;             ///< added to the mean velocity, pixels a frame
   Plane source_map;                          ///< births in proportion to it, of the picture's size; empty = as learned
   Plane sink_map;                            ///< deaths likewise
+  Plane hazard_map;                          ///< probability to die before the next frame, instead of a sink map
   const TexturedMotion* looks_of = nullptr;  ///< appearance of another model; must outlive the synthesis
   int looks_of_species = -1;                 ///< of that template only; −1 = each its own
 

@@ -252,6 +252,32 @@ TEST(Synthesize, DeathsFollowThePaintedMap) {
   EXPECT_LT(below, 0.5 * above * (kHeight - 50) / 50.0);
 }
 
+TEST(Synthesize, DeathsHaveThePaintedProbability) {
+  const TexturedMotion model = snow_model();
+  SynthesizeParticlesOptions options;
+  options.hazard_map = Plane(kWidth, kHeight);
+  for (int x = 0; x < kWidth; ++x)
+    for (int y = 48; y < 56; ++y) options.hazard_map.at(x, y) = 1;
+  int above = 0, below = 0, born_below = 0;
+  for (const Cable& cable : synthesize_cables(model, options, 200)) {
+    born_below += cable.core[0].y >= 48 ? 1 : 0;
+    if (cable.core[0].y >= 40) continue;
+    ++above;
+    below += cable.core.back().y > 70 ? 1 : 0;  // it fades over a few frames
+  }
+  EXPECT_GT(above, 50);
+  EXPECT_LT(below, above / 50);
+  EXPECT_GT(born_below, 0);
+  options.hazard_map = Plane(kWidth, kHeight, 0);
+  for (const Cable& cable : synthesize_cables(model, options, 60)) {
+    const Base& last = cable.core.back();
+    const bool inside = last.x > 5 && last.y > 5 && last.x < kWidth - 5 && last.y < kHeight - 5;
+    EXPECT_TRUE(!inside || cable.end_frame() == 60);
+  }
+  options.sink_map = Plane(kWidth, kHeight, 1);
+  EXPECT_THROW(synthesize_cables(model, options, 10), InvalidInput);
+}
+
 /// Elements that move nowhere for the whole clip are there in the synthesis, too.
 TEST(Synthesize, KeepsResidents) {
   TexturedMotion model;
