@@ -99,6 +99,86 @@ class BadModels(CommandTest):
             self.assertFalse(out.exists())
 
 
+class BadParticles(CommandTest):
+    """Every command of particles that takes a model, a video or a compressed clip."""
+
+    def of_model(self, model):
+        out = self.folder / "out"
+        return [
+            ("info", model),
+            ("tracks", model, "-o", f"{out}.csv"),
+            ("synthesize", model, "-o", f"{out}.mkv", "--frames", 3),
+            ("maps", model, "-o", out),
+            ("explain", model, self.folder / "any.mkv"),
+            ("compress", self.folder / "any.mkv", "-o", f"{out}.mtxc", "--model", model),
+        ]
+
+    def test_models(self):
+        good = self.snow_model()
+        self.succeed("particles", "synthesize", good, "-o", self.folder / "any.mkv", "--frames", 4)
+        whole = good.read_bytes()
+        bad = self.folder / "bad.motex"
+        altered = bytearray(whole)
+        altered[len(whole) // 2] ^= 0x41
+        dance = self.model().read_bytes()
+        for contents in [b"", whole[:9], whole[: len(whole) // 2], whole[:-1], bytes(altered), b"hello\n", bytes(4096), dance]:
+            bad.write_bytes(contents)
+            for words in self.of_model(bad):
+                self.fail_with(2, "particles", *words, saying=r"bad\.motex")
+        for words in self.of_model(self.folder / "none.motex"):
+            self.fail_with(2, "particles", *words, saying=r"none\.motex")
+        for words in [("info", good), ("synthesize", good, "-o", self.folder / "x.bvh", "--secs", 1)]:
+            self.fail_with(2, "motion", *words, saying=r"snow\.motex")
+
+    def test_videos(self):
+        model, out = self.snow_model(), self.folder / "out"
+        self.succeed("particles", "synthesize", model, "-o", self.folder / "good.mkv", "--frames", 4)
+        whole = (self.folder / "good.mkv").read_bytes()
+        bad = self.folder / "bad.mp4"
+        pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n"
+        for contents, saying in [
+            (b"", "empty"), (b"no video\n", "text file"), (pointer, "git lfs pull"), (bytes(4096), r"bad\.mp4"),
+            (whole[:300], r"bad\.mp4"), (None, r"bad\.mp4"),
+        ]:
+            if contents is None:
+                bad.unlink()
+            else:
+                bad.write_bytes(contents)
+            for words in [
+                ("learn", bad, "-o", f"{out}.motex"),
+                ("decompose", bad, "-o", out),
+                ("explain", model, bad),
+                ("compress", bad, "-o", f"{out}.mtxc"),
+                ("tracks", model, "-o", f"{out}.mkv", "--video", bad),
+            ]:
+                self.fail_with(2, "particles", *words, saying=saying)
+        self.fail_with(2, "particles", "decompress", self.folder / "good.mkv", "-o", f"{out}.mkv", saying=r"good\.mkv")
+
+    def test_too_little_to_learn_from(self):
+        model = self.snow_model()
+        two, still = self.folder / "two.mkv", self.folder / "still.mkv"
+        self.succeed("particles", "synthesize", model, "-o", two, "--frames", 2)
+        self.succeed("particles", "synthesize", model, "-o", still, "--frames", 20, "--rate", 0)
+        for video, saying in [(two, "frames"), (still, "nothing moves")]:
+            self.fail_with(2, "particles", "learn", video, "-o", self.folder / "x.motex", saying=saying)
+        target = self.folder / "x.motex"
+        for flag, value, saying in [
+            ("--rounds", -1, "rounds"), ("--sweeps", 0, "sweeps"), ("--tracking", "water", "tracking"), ("--seed", "x", "seed"),
+            ("--first-frame", 99, "frame 99"), ("--num-frames", 1, "frames"), ("--background", "green", "background"),
+        ]:
+            self.fail_with(2, "particles", "learn", still, "-o", target, flag, value, saying=saying)
+
+    def test_targets(self):
+        model = self.snow_model()
+        for words in [
+            ("tracks", model), ("synthesize", model, "--frames", 3), ("maps", model),
+            *(("simulate", kind, "--frames", 3, "--width", 32, "--height", 24) for kind in ("snow", "birds", "fireworks")),
+        ]:
+            self.fail_with(2, "particles", *words, "-o", self.folder / "none" / "x", saying="none")
+            self.fail_with(2, "particles", *words, "-o", "/proc/x", saying="/proc|x")
+        self.fail_with(2, "particles", "tracks", model, "-o", self.folder / "x.xyz", saying="xyz")
+
+
 class BadTargets(CommandTest):
     def synthesize_fails(self, code, target, *more, saying=".", **options):
         arguments = ("motion", "synthesize", self.model(), "-o", target, "--secs", 20, *more)
@@ -204,6 +284,14 @@ class Interrupted(CommandTest):
         before = model.read_bytes()
         self.interrupt("motion", "learn", *(CLIPS * 40), "-o", model, "--force")
         self.assertEqual(model.read_bytes(), before)
+
+    def test_learning_particles_leaves_nothing(self):
+        scene = self.folder / "scene"
+        self.succeed("particles", "simulate", "snow", "-o", scene, "--frames", 60, "--elements", 150)
+        self.interrupt("particles", "learn", scene / "scene.mkv", "-o", self.folder / "x.motex", "--sweeps", 1000)
+
+    def test_synthesizing_particles_leaves_nothing(self):
+        self.interrupt("particles", "synthesize", self.snow_model(), "-o", self.folder / "x.mkv", "--frames", 1000000)
 
     def test_synthesizing_leaves_nothing(self):
         self.interrupt("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 36000)

@@ -33,6 +33,13 @@ def write_cut(source, target, num_frames):
 
 
 @functools.cache
+def commands():
+    """Every command of motex as words, from its own reference."""
+    reference = run("help", "--reference").stdout
+    return [line.removeprefix("## motex ").split() for line in reference.splitlines() if line.startswith("## motex ")]
+
+
+@functools.cache
 def model_bytes():
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "dance.motex"
@@ -40,6 +47,22 @@ def model_bytes():
         if result.returncode != 0:
             raise RuntimeError(f"learning the bundled clips failed: {result.stderr}")
         return path.read_bytes()
+
+
+@functools.cache
+def snow_bytes():
+    """A model of textured motion, learned from simulated snow."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for words in [
+            ("simulate", "snow", "-o", folder / "snow", "--frames", "16", "--elements", "12", "--width", "72", "--height",
+             "54", "--noise", "2"),
+            ("learn", folder / "snow" / "scene.mkv", "-o", folder / "snow.motex", "--rounds", "0"),
+        ]:
+            result = run("particles", *words)
+            if result.returncode != 0:
+                raise RuntimeError(f"{words}: {result.stderr}")
+        return (folder / "snow.motex").read_bytes()
 
 
 class CommandTest(unittest.TestCase):
@@ -53,6 +76,11 @@ class CommandTest(unittest.TestCase):
     def model(self):
         path = self.folder / "dance.motex"
         path.write_bytes(model_bytes())
+        return path
+
+    def snow_model(self):
+        path = self.folder / "snow.motex"
+        path.write_bytes(snow_bytes())
         return path
 
     def files(self):

@@ -4,20 +4,26 @@
 
 import unittest
 
-from command import CLIPS, CommandTest, run, write_cut
-
-COMMANDS = ["learn", "info", "synthesize", "path", "choreograph", "inbetween", "stretch", "vary", "edit", "segment", "score", "compare", "features", "view", "convert",
-            "retarget", "play", "export"]
-
+from command import CLIPS, CommandTest, commands, run, write_cut
 
 class Usage(CommandTest):
     def test_help_is_data(self):
-        for words in [(), ("motion",), *(("motion", command) for command in COMMANDS)]:
+        nouns = {words[0] for words in commands() if len(words) > 1}
+        self.assertLessEqual({"motion", "particles"}, nouns)
+        for words in [(), *((noun,) for noun in nouns), *commands()]:
             result = self.succeed(*words, "--help")
             self.assertIn("motex", result.stdout)
             self.assertEqual(result.stderr, "")
-        for command in COMMANDS:
-            self.assertRegex(run("motion", command, "--help").stdout, "(?i)example", f"{command} --help has no example")
+        for words in commands():
+            if len(words) > 1:
+                self.assertRegex(run(*words, "--help").stdout, "(?i)example", f"{words} --help has no example")
+
+    def test_every_command_refuses_what_it_does_not_know(self):
+        for words in commands():
+            self.fail_with(2, *words, "--no-such-flag", saying="no-such-flag")
+            if len(words) > 1:
+                self.fail_with(2, *words, saying="(?i)missing|at least one|name one|needs|--help")
+            self.fail_with(2, *words[:-1], words[-1] + "x", saying=words[-1])
 
     def test_wrong_usage(self):
         self.fail_with(2, "motion", "lern", saying="lern|learn")
@@ -58,6 +64,38 @@ class Output(CommandTest):
         self.succeed("motion", "synthesize", model, "-o", self.folder / "x.bvh", "--secs", 1, "--dry-run")
         self.succeed("motion", "learn", CLIPS[0], "-o", self.folder / "y.motex", "--dry-run")
         self.assertEqual(self.files(), before)
+
+    def test_particles_overwrite_nothing_and_write_nothing_in_a_dry_run(self):
+        model, video = self.snow_model(), self.folder / "v.mkv"
+        self.succeed("particles", "synthesize", model, "-o", video, "--frames", 14)
+        for words, name in [
+            (("learn", video), "l.motex"),
+            (("tracks", model), "t.csv"),
+            (("tracks", model), "t.xml"),
+            (("tracks", model), "t.mkv"),
+            (("synthesize", model, "--frames", 3), "s.mkv"),
+            (("compress", video, "--model", self.folder / "l.motex"), "c.mtxc"),
+            (("decompose", video, "--counts", 5), "d"),
+            (("maps", model), "m"),
+            (("simulate", "snow", "--frames", 3, "--width", 32, "--height", 24), "snow"),
+            (("simulate", "birds", "--frames", 3, "--width", 32, "--height", 24), "birds"),
+            (("simulate", "fireworks", "--frames", 3, "--width", 32, "--height", 24), "fireworks"),
+        ]:
+            before, target = self.files(), self.folder / name
+            arguments = ("particles", *words, "-o", target)
+            self.succeed(*arguments, "--dry-run")
+            self.assertEqual(self.files(), before, words)
+            result = self.succeed(*arguments, "--quiet")
+            self.assertEqual(result.stderr, "", words)
+            kept = self.contents(target)
+            self.fail_with(2, *arguments, saying="--force")
+            self.assertEqual(self.contents(target), kept, words)
+            self.succeed(*arguments, "--force")
+
+    @staticmethod
+    def contents(path):
+        paths = sorted(path.rglob("*")) if path.is_dir() else [path]
+        return [(one.name, one.read_bytes()) for one in paths if one.is_file()]
 
     def test_quiet_says_nothing(self):
         result = self.succeed("motion", "synthesize", self.model(), "-o", self.folder / "x.bvh", "--secs", 1, "--quiet")
@@ -136,6 +174,22 @@ class Json(CommandTest):
                 self.assertAlmostEqual(value["speed_ratio"], 1, delta=0.05)
             if words[0] == "edit":
                 self.assertEqual([part["frames"] for part in value["parts"]], [[25], [30], [20]])
+
+    def test_particles(self):
+        model, video, small = self.snow_model(), self.folder / "v.mkv", self.folder / "c.mtxc"
+        made = self.one_json_object("particles", "synthesize", model, "-o", video, "--frames", 14, "--seed", 3)
+        self.has(made, "output", "frames", "seed", "elements_per_frame", "options", "secs")
+        learned = self.one_json_object("particles", "learn", video, "-o", self.folder / "l.motex", "--seed", 3)
+        self.has(learned, "model", "frames", "cables", "templates", "learning", "options", "seed", "secs")
+        self.assertEqual((made["seed"], learned["seed"]), (3, 3))
+        self.has(learned["learning"], "moves", "log_posterior_trace", "rounds", "expected_wrong_links")
+        self.has(self.one_json_object("particles", "info", model), "width", "height", "templates")
+        self.has(self.one_json_object("particles", "tracks", model, "-o", self.folder / "t.csv"), "tracks", "points")
+        self.has(self.one_json_object("particles", "explain", model, video), "models", "image")
+        self.has(self.one_json_object("particles", "maps", model, "-o", self.folder / "m"), "births", "deaths")
+        self.has(self.one_json_object("particles", "compress", video, "-o", small), "bytes", "raw_bytes", "psnr", "ratio")
+        self.has(self.one_json_object("particles", "decompress", small, "-o", self.folder / "b.mkv"), "frames")
+        self.has(self.one_json_object("particles", "decompose", video, "-o", self.folder / "d", "--counts", 5), "frames")
 
     def test_segment(self):
         self.one_json_object("motion", "segment", self.model(), CLIPS[0])

@@ -2,31 +2,12 @@
 # SPDX-License-Identifier: MIT
 """motex particles synthesize: three files together, edits, and how it takes bad requests."""
 
-import functools
 import json
 import struct
-import tempfile
 import unittest
 import zlib
-from pathlib import Path
 
-from command import CommandTest, run
-
-
-@functools.cache
-def snow_bytes():
-    """A model learned from simulated snow."""
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        for words in [
-            ("simulate", "snow", "-o", folder / "snow", "--frames", "16", "--elements", "12", "--width", "72", "--height",
-             "54", "--noise", "2"),
-            ("learn", folder / "snow" / "scene.mkv", "-o", folder / "snow.motex", "--rounds", "0"),
-        ]:
-            result = run("particles", *words)
-            if result.returncode != 0:
-                raise RuntimeError(f"{words}: {result.stderr}")
-        return (folder / "snow.motex").read_bytes()
+from command import CommandTest, snow_bytes
 
 
 def write_gray(path, width, height, level):
@@ -128,6 +109,16 @@ class Synthesize(CommandTest):
         self.assertAlmostEqual(next(row for row in after if row[0] == first[0])[2], first[2] + 1.5, places=3)
         self.assertFalse([row for row in after if row[0] == before[1][0]])
         self.assertEqual([row[1:4] for row in after if row[0] == 1e9][:1], [(2.0, 30.0, 20.0)])
+
+    def test_painted_hazard(self):
+        kept = write_gray(self.folder / "kept.png", 72, 54, lambda x, y: 0)
+        deadly = write_gray(self.folder / "deadly.png", 72, 54, lambda x, y: 255 if y > 30 else 0)
+        self.synthesize("--frames", "40", "--hazard-map", kept)
+        many = sum(y > 40 for _, _, _, y, *_ in self.rows())
+        self.synthesize("--frames", "40", "--hazard-map", deadly, "--force")
+        self.assertLess(sum(y > 40 for _, _, _, y, *_ in self.rows()), many / 2)
+        self.fail_with(2, "particles", "synthesize", self.snow, "-o", self.folder / "b.mp4", "--frames", "9", "--hazard-map",
+                       kept, "--sink-map", deadly, saying="--sink-map and --hazard-map exclude")
 
     def test_no_births(self):
         result = self.succeed("particles", "synthesize", self.snow, "-o", self.video, "--frames", "3", "--rate", "0")

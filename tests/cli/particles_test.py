@@ -273,6 +273,56 @@ class Tracks(CommandTest):
         self.fail_with(2, "particles", "compress", self.video, "-o", self.folder / "x.zip", saying="mtxc")
 
 
+def write_waterfall(folder, num_frames=40, width=48, height=40):
+    """Grey pictures: a texture that falls by 2 pixels a frame, in streams of their own speed."""
+    folder.mkdir()
+    for t in range(num_frames):
+        rows = bytearray()
+        for y in range(height):
+            for x in range(width):
+                fall = y - (2 + x // 12 % 2) * t
+                light = 110 + 30 * math.sin(0.9 * fall + 1.7 * x) + 25 * math.sin(0.41 * fall - 0.8 * x + 2)
+                rows.append(min(255, max(0, round(light))))
+        (folder / f"f_{t:03}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (width, height) + rows)
+    return folder
+
+
+class Tracking(CommandTest):
+    """particles learn --tracking: elements, or water."""
+
+    def learn(self, video, *words):
+        model = self.folder / "x.motex"
+        return self.one_json_object("particles", "learn", video, "-o", model, "--force", *words), model
+
+    def test_water_is_known_by_itself(self):
+        video = write_waterfall(self.folder / "water")
+        report, model = self.learn(video)
+        self.assertEqual(report["options"]["tracking"], "auto")
+        self.assertEqual(report["templates"], 0)
+        self.assertGreater(report["cables"], 200)
+        carried, _ = self.learn(video, "--tracking", "carry")
+        self.assertEqual(carried["cables"], report["cables"])
+        made = self.folder / "o.mkv"
+        shown = self.one_json_object("particles", "synthesize", model, "-o", made, "--frames", 20)
+        self.assertEqual(shown["frames"], 20)
+        self.assertGreater(shown["bases_per_frame"], 50)
+        for words in [("--rate", "2"), ("--gravity", "1"), ("--wind", "1,0"), ("--appearance", "templates"), ("--template", "0")]:
+            self.fail_with(2, "particles", "synthesize", model, "-o", self.folder / "w.mkv", "--frames", "9", *words,
+                           saying="water")
+
+    def test_snow_is_elements_and_may_be_carried(self):
+        video = write_snow(self.folder / "snow", 14)
+        report, _ = self.learn(video, "--rounds", "0")
+        elements, _ = self.learn(video, "--rounds", "0", "--tracking", "cores")
+        self.assertEqual(report["cables"], elements["cables"])
+        carried, model = self.learn(video, "--tracking", "carry")
+        self.assertEqual(carried["templates"], 0)
+        self.fail_with(2, "particles", "synthesize", model, "-o", self.folder / "w.mkv", "--frames", "9", "--rate", "2",
+                       saying="water")
+        short = write_snow(self.folder / "short", 8)
+        self.fail_with(2, "particles", "learn", short, "-o", self.folder / "y.motex", "--tracking", "carry", saying="12 frames")
+
+
 class Simulate(CommandTest):
     def setUp(self):
         super().setUp()

@@ -108,7 +108,10 @@ class Sampler {
       const auto idx = static_cast<std::size_t>(task);
       FittedCoreProposal proposal(law_.prior());
       CableMoves moves(state_, law_, proposal, pieces[idx], sweep_rng.fork(static_cast<std::uint64_t>(task)));
-      for (int frame = pieces[idx].first; frame < pieces[idx].end; ++frame) go_through(frame, sweep, moves);
+      for (int frame = pieces[idx].first; frame < pieces[idx].end; ++frame) {
+        job_.check_cancelled();
+        go_through(frame, sweep, moves);
+      }
       if (options_.jumps && sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
         rebuilds[idx] = search(pieces[idx], moves);
       changes[idx] = moves.log_posterior_change();
@@ -127,6 +130,7 @@ class Sampler {
   JumpCount search(FrameRange piece, CableMoves& moves) const {
     JumpCount count;
     for (int frame = piece.first; frame < piece.end; ++frame) {
+      job_.check_cancelled();
       const std::vector<int> all = state_.live(frame);
       for (const int idx : all) {
         const CoreElement& element = state_.element(frame, idx);
@@ -150,9 +154,11 @@ class Sampler {
   double move_levels(const Rng& rng) {
     FittedCoreProposal proposal(law_.prior());
     CableMoves moves(state_, law_, proposal, {0, num_frames_}, rng);
-    for (int frame = 0; frame < num_frames_; ++frame)
+    for (int frame = 0; frame < num_frames_; ++frame) {
+      job_.check_cancelled();
       for (int k = 0; k < static_cast<int>(kLevelsPerElement * elements_per_frame_ + 0.5); ++k)
         moves.propose(CableMove::kLevel, frame);
+    }
     add_counts(moves.counts());
     return moves.log_posterior_change();
   }
