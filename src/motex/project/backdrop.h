@@ -18,6 +18,7 @@ namespace motex {
 class Backdrop {
  public:
   Backdrop(Rgba colour, int width, int height);
+  explicit Backdrop(const Image& picture) : width_(picture.width), height_(picture.height), image_(picture) {}
   /// A picture, or anything else that VideoReader reads. Throws what VideoReader throws.
   Backdrop(const std::filesystem::path& path, int width, int height, const JobContext& job = {});
 

@@ -7,8 +7,7 @@
 #include <string>
 
 #include "motex/core/error.h"
-#include "motex/project/staged_files.h"
-#include "motex/video_io/video_writer.h"
+#include "motex/project/video_outputs.h"
 
 namespace motex {
 namespace {
@@ -16,32 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBleed = 8;  // pixels
-
-bool is_sequence(const fs::path& path) {
-  return path.extension().empty() || path.filename().string().find('%') != std::string::npos;
-}
-
-/// Every output as the writer that makes it.
-class Outputs {
- public:
-  Outputs(const std::vector<fs::path>& paths, const VideoInfo& info, bool alpha, const JobContext& job) {
-    const double rate = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
-    for (const fs::path& path : paths)
-      writers_.emplace_back(is_sequence(path) ? path : staged_.stage(path), info.width, info.height,
-                            WriteVideoOptions{rate, alpha}, job);
-  }
-  void write(const Image& image, double time_secs) {
-    for (VideoWriter& writer : writers_) writer.write(image, time_secs);
-  }
-  void finish() {
-    for (VideoWriter& writer : writers_) writer.finish();
-    staged_.commit();
-  }
-
- private:
-  StagedFiles staged_;
-  std::vector<VideoWriter> writers_;
-};
 
 /// Gives transparent pixels along a line the colour of the last one before them that has one, up to kBleed pixels away.
 void bleed_along(Rgba* pixel, std::ptrdiff_t step, int count, bool from_opaque) {
@@ -95,7 +68,8 @@ KeyVideoReport key_video(const fs::path& video, const KeyFootageOptions& options
                          const std::vector<fs::path>& outputs, const JobContext& job) {
   KeyedFootage footage(video, options, job.part(0, 0.3));
   const VideoInfo& info = footage.info();
-  Outputs writers(outputs, info, backdrop == nullptr, job);
+  const double rate = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
+  VideoOutputs writers(outputs, info.width, info.height, {rate, backdrop == nullptr}, job);
   KeyVideoReport report;
   report.width = info.width, report.height = info.height;
   Image image;

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/project/video_outputs.h"
+
+namespace motex {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_sequence(const fs::path& path) {
+  return path.extension().empty() || path.filename().string().find('%') != std::string::npos;
+}
+
+}  // namespace
+
+VideoOutputs::VideoOutputs(const std::vector<fs::path>& paths, int width, int height, const WriteVideoOptions& options,
+                           const JobContext& job) {
+  for (const fs::path& path : paths)
+    writers_.emplace_back(is_sequence(path) ? path : staged_.stage(path), width, height, options, job);
+}
+
+void VideoOutputs::write(const Image& image) {
+  for (VideoWriter& writer : writers_) writer.write(image);
+}
+
+void VideoOutputs::write(const Image& image, double time_secs) {
+  for (VideoWriter& writer : writers_) writer.write(image, time_secs);
+}
+
+void VideoOutputs::finish() {
+  for (VideoWriter& writer : writers_) writer.finish();
+  staged_.commit();
+}
+
+}  // namespace motex
