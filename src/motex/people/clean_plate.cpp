@@ -18,6 +18,7 @@
 #include "motex/people/plate_noise.h"
 #include "motex/people/sample_cluster.h"
 #include "motex/people/screen_surface.h"
+#include "motex/people/square_sums.h"
 
 namespace motex {
 namespace {
@@ -25,6 +26,7 @@ namespace {
 constexpr int kMostFrames = 48;
 constexpr std::size_t kMostBytes = std::size_t{192} << 20;
 constexpr int kFewestNatural = 8;
+constexpr float kSeldom = 0.3F;  // of the frames: where the screen is seen less, something may stand before it
 
 void check_frames(std::span<const Image> frames) {
   if (frames.empty()) throw InvalidInput("a clean plate needs frames to be estimated from; none was given");
@@ -39,6 +41,17 @@ struct PixelStatistics {
   Plane share;  // of the frames that are in the cluster
 };
 
+/// Whether a sample may be the screen: near the expected colour in other light.
+bool is_near(const LevelTriple& sample, const LevelTriple& expected, double reach) {
+  // Pale clothes are a white screen in other light.
+  const float least = std::min({expected[0], expected[1], expected[2]}),
+              most = std::max({expected[0], expected[1], expected[2]});
+  const LightRange light = most - least > 0.4F * most ? LightRange{0.22F, 0.15F} : LightRange{0.08F, 0.05F};
+  const float square = squared_difference(sample[0] - expected[0], sample[1] - expected[1], sample[2] - expected[2],
+                                          expected[0], expected[1], expected[2], light);
+  return square <= reach * reach;
+}
+
 PixelStatistics cluster_pixels(std::span<const Image> frames, const ScreenSurface* screen, double reach, double noise,
                                const JobContext& job) {
   const int width = frames[0].width, height = frames[0].height;
@@ -51,7 +64,7 @@ PixelStatistics cluster_pixels(std::span<const Image> frames, const ScreenSurfac
       for (const Image& frame : frames) {
         const Rgba& p = frame.at(x, y);
         const LevelTriple level{static_cast<float>(p.r), static_cast<float>(p.g), static_cast<float>(p.b)};
-        if (screen == nullptr || squared_distance(level, expected) <= reach * reach) cluster.add(level);
+        if (screen == nullptr || is_near(level, expected, reach)) cluster.add(level);
       }
       const SampleCluster::Result result = cluster.largest();
       for (std::size_t c = 0; c < 3; ++c) found.mean[c].at(x, y) = result.mean[c];
@@ -76,7 +89,7 @@ double typical_noise(std::span<const Image> frames) {
     widths.push_back(least);
   }
   // The shortest half of a normal sample spans about 1.2 deviations.
-  return std::max(kLeastPlateNoise, quantile(widths, 0.5) / 1.2);
+  return std::clamp(quantile(widths, 0.5) / 1.2, kLeastPlateNoise, kLargestPlateNoise / 2);
 }
 
 ScreenKind kind_of(Rgba colour) {
@@ -97,18 +110,18 @@ Rgba mean_of(const Planes& planes) {
   return {level(sums[0] / count), level(sums[1] / count), level(sums[2] / count), 255};
 }
 
-/// Of a region of pixels never seen empty: how many it has, how many of these change, and the same of the pixels
+/// Of a region of pixels seldom seen empty: how many it has, how many of these change, and the same of the pixels
 /// around.
 struct StillCount {
   double inside = 0, moving_inside = 0, around = 0, moving_around = 0;
 
   /// Around something that stands still the screen is seen nearly always; around the middle of an actor now and then.
-  bool is_still() const { return moving_inside <= 0.03 * inside && around > 0 && moving_around <= 0.05 * around; }
+  bool is_still() const { return moving_inside <= 0.1 * inside && around > 0 && moving_around <= 0.05 * around; }
 };
 
-/// Regions never seen empty that stand still throughout and touch nothing that moves: they belong to the scene.
+/// Regions seldom seen empty that stand still and touch nothing that moves: they belong to the scene.
 Mask still_things(const Mask& seen, const Plane& screen_share, const Plane& any_share) {
-  constexpr float kSteady = 0.85F;
+  constexpr float kSteady = 0.6F, kSeenOften = 0.85F;
   constexpr int kAround = 3;  // pixels
   MaskRegions found;
   find_regions(seen, found);
@@ -119,7 +132,7 @@ Mask still_things(const Mask& seen, const Plane& screen_share, const Plane& any_
     const auto look_around = [&](int x, int y) {
       if (x < 0 || y < 0 || x >= seen.width || y >= seen.height || !seen.at(x, y)) return;
       count.around += 1;
-      count.moving_around += screen_share.at(x, y) < kSteady ? 1 : 0;
+      count.moving_around += screen_share.at(x, y) < kSeenOften ? 1 : 0;
     };
     for (int x = run.first; x <= run.last; ++x) {
       count.inside += 1;
@@ -167,7 +180,7 @@ void smooth_screen(Planes& mean, const Mask& still, std::size_t num_frames) {
 
 CleanPlate screen_plate(std::span<const Image> frames, const ScreenSurface& screen, double noise,
                         const JobContext& job) {
-  const double reach = std::clamp(4 * screen.spread, 18.0, 50.0);
+  const double reach = std::clamp(3 * screen.spread, 12.0, 24.0);
   PixelStatistics pixels = cluster_pixels(frames, &screen, reach, noise, job);
   const PixelStatistics any = cluster_pixels(frames, nullptr, 0, noise, job);
   Mask seen(screen.width, screen.height);
@@ -176,8 +189,9 @@ CleanPlate screen_plate(std::span<const Image> frames, const ScreenSurface& scre
   if (frames.size() < 3) seen = threshold(pixels.share, 0.01F);
   CleanPlate plate;
   plate.seen_share = static_cast<double>(seen.area()) / static_cast<double>(seen.pixels.size());
-  const Mask still =
-      frames.size() >= kFewestNatural ? still_things(seen, pixels.share, any.share) : Mask(seen.width, seen.height);
+  const Mask still = frames.size() >= kFewestNatural
+                         ? still_things(threshold(pixels.share, kSeldom), pixels.share, any.share)
+                         : Mask(seen.width, seen.height);
   Mask known = seen;
   for (std::size_t i = 0; i < still.pixels.size(); ++i) {
     if (still.pixels[i] == 0) continue;

@@ -23,7 +23,7 @@ const char* name_of(ScreenKind kind);
 struct CleanPlate {
   Image picture;  ///< opaque
   /// Deviation of one channel of a frame around the picture, grey levels: of the mean of 2 × 2 pixels, times 2, so that
-  /// noise that neighbours share counts in full. One value for each 2 × 2 pixels (sides halved, rounded up), ≥ 0.7.
+  /// noise that neighbours share counts in full. One value for each 2 × 2 pixels (sides halved, rounded up), 1.2 … 12.
   Plane noise;
   ScreenKind kind = ScreenKind::kPlain;
   Rgba colour;              ///< mean of the screen

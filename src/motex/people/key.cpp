@@ -13,15 +13,20 @@
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/people/matte_grid.h"
+#include "motex/people/unmix.h"
 
 namespace motex {
 namespace {
 
 constexpr int kRimDepth = 2;    // squares up to this depth are unmixed
-constexpr int kSpillDepth = 4;  // and up to this one cleared of spill
-constexpr float kDeadBand = 2;  // deviations of α that count as 0 and 1
+constexpr int kSpillDepth = 5;  // and up to this one cleared of spill
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
+
+LevelTriple mean_of(const std::array<float, 4>& sum) {
+  const float scale = 1 / sum[3];
+  return {sum[0] * scale, sum[1] * scale, sum[2] * scale};
+}
 
 }  // namespace
 
@@ -40,70 +45,81 @@ struct Keyer::State {
   MatteGrid grid;
   std::vector<PremultipliedRgba> canvas;  // of the frame's size; only what lies in the box is up to date
 
-  void unmix(const Image& frame, int x, int y, float noise, const std::array<float, 4>& inner, PremultipliedRgba& out,
-             bool of_actor) const;
-  void take_spill(PremultipliedRgba& pixel) const;
+  /// What the four pixels of a square have in common.
+  struct Square {
+    int depth = 0;
+    float noise = 1;
+    FrontColours fronts;
+    LevelTriple deep{};
+    bool deep_known = false;
+  };
+  Square square_at(int column, int row) const;
+  PremultipliedRgba pixel_of(const Rgba& pixel, const Rgba& plate, const Square& square) const;
   void fill_canvas(const Image& frame);
   void cut_out(Sprite& sprite, int width, int height) const;
 };
 
-void Keyer::State::take_spill(PremultipliedRgba& pixel) const {
-  const int channel = shared->screen_channel;
-  if (channel < 0) return;
-  const int other = channel == 1 ? pixel[2] : pixel[1];
-  const int excess = pixel[static_cast<std::size_t>(channel)] - std::max<int>(pixel[0], other);
-  if (excess <= 0) return;
-  pixel[static_cast<std::size_t>(channel)] =
-      static_cast<std::uint8_t>(pixel[static_cast<std::size_t>(channel)] - std::lround(shared->options.spill * excess));
+Keyer::State::Square Keyer::State::square_at(int column, int row) const {
+  const std::size_t at = grid.sums.index(column, row);
+  Square square;
+  square.depth = grid.depths[at];
+  square.noise = shared->plate.noise.at(column, row);
+  const std::array<float, 4>&near = grid.near_colours[at], &around = grid.around_colours[at];
+  square.fronts.known = around[3] > 0;
+  if (square.fronts.known) {
+    square.fronts.around = mean_of(around);
+    square.fronts.near = near[3] > 0 ? mean_of(near) : square.fronts.around;
+  }
+  const std::size_t cell =
+      static_cast<std::size_t>(row / MatteGrid::kCell) * static_cast<std::size_t>(grid.cells_across) +
+      static_cast<std::size_t>(column / MatteGrid::kCell);
+  const std::array<float, 4>& deep = grid.deep_colours[cell];
+  square.deep_known = deep[3] > 0 && shared->options.spill > 0 && shared->plate.kind != ScreenKind::kNatural;
+  if (square.deep_known) square.deep = mean_of(deep);
+  return square;
 }
 
-void Keyer::State::unmix(const Image& frame, int x, int y, float noise, const std::array<float, 4>& inner,
-                         PremultipliedRgba& out, bool of_actor) const {
-  const Rgba &p = frame.at(x, y), &b = shared->plate.picture.at(x, y);
-  out = {};
-  if (inner[3] <= 0) return;
-  const float scale = 1 / inner[3];
-  const float fr = inner[0] * scale - b.r, fg = inner[1] * scale - b.g, fb = inner[2] * scale - b.b;
-  const float length = fr * fr + fg * fg + fb * fb;
-  const auto dr = static_cast<float>(p.r - b.r), dg = static_cast<float>(p.g - b.g), db = static_cast<float>(p.b - b.b);
-  float alpha = 0;
-  if (length < 9 * noise * noise) {
-    alpha = of_actor ? 1 : 0;
-  } else {
-    alpha = (dr * fr + dg * fg + db * fb) / length;
-    const float band = std::min(0.25F, kDeadBand * noise / std::sqrt(length));
-    if (alpha < band) return;
-    if (alpha > 1 - band) alpha = 1;
+PremultipliedRgba Keyer::State::pixel_of(const Rgba& pixel, const Rgba& plate, const Square& square) const {
+  const LevelTriple level{static_cast<float>(pixel.r), static_cast<float>(pixel.g), static_cast<float>(pixel.b)};
+  const LevelTriple back{grid.gains[0] * plate.r, grid.gains[1] * plate.g, grid.gains[2] * plate.b};
+  float alpha = 1;
+  if (square.depth <= kRimDepth) {
+    if (!square.fronts.known) return {};
+    alpha = unmixed_alpha(level, back, square.fronts, square.noise, square.depth);
+    if (alpha == 0) return {};
   }
-  if (alpha == 0) return;
-  const float top = 255 * alpha, rest = 1 - alpha;
-  const auto colour = [&](std::uint8_t level, std::uint8_t back) {
-    return byte(std::clamp(static_cast<float>(level) - rest * static_cast<float>(back), 0.0F, top));
-  };
-  out = {colour(p.r, b.r), colour(p.g, b.g), colour(p.b, b.b), byte(top)};
+  LevelTriple colour{};
+  for (std::size_t c = 0; c < 3; ++c) colour[c] = std::clamp((level[c] - (1 - alpha) * back[c]) / alpha, 0.0F, 255.0F);
+  if (square.deep_known) {
+    const float share =
+        static_cast<float>(shared->options.spill) * spill_share(colour, square.deep, back, shared->screen_channel);
+    for (std::size_t c = 0; c < 3 && share > 0; ++c)
+      colour[c] = std::clamp((colour[c] - share * back[c]) / (1 - share), 0.0F, 255.0F);
+  }
+  return {byte(alpha * colour[0]), byte(alpha * colour[1]), byte(alpha * colour[2]), byte(255 * alpha)};
 }
 
 void Keyer::State::fill_canvas(const Image& frame) {
-  const BoundingBox& box = grid.box;
-  const auto width = static_cast<std::size_t>(frame.width);
-  for (int row = std::max(0, box.top - 1); row <= std::min(grid.height - 1, box.bottom + 1); ++row) {
-    for (int column = std::max(0, box.left - 1); column <= std::min(grid.width - 1, box.right + 1); ++column) {
-      const auto at =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(column);
+  const BoundingBox box = grid.rim_box();
+  const Image& plate = shared->plate.picture;
+  const bool has_garbage = shared->garbage.width > 0;
+  for (int row = box.top; row <= box.bottom; ++row) {
+    for (int column = box.left; column <= box.right; ++column) {
+      const std::size_t at = grid.sums.index(column, row);
       const int depth = grid.depths[at];
+      const bool empty = depth == 0 && grid.rim[at] == 0, whole = depth > kSpillDepth;
+      const Square square = empty || whole ? Square{} : square_at(column, row);
       for (int y = 2 * row; y <= std::min(2 * row + 1, frame.height - 1); ++y) {
         for (int x = 2 * column; x <= std::min(2 * column + 1, frame.width - 1); ++x) {
-          PremultipliedRgba& out = canvas[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
+          PremultipliedRgba& out =
+              canvas[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x)];
           const Rgba& p = frame.at(x, y);
-          if (shared->garbage.width > 0 && shared->garbage.at(x, y))
+          if (empty || (has_garbage && shared->garbage.at(x, y)))
             out = {};
-          else if (depth > kRimDepth)
+          else if (whole)
             out = {p.r, p.g, p.b, 255};
-          else if (depth > 0 || grid.rim[at] != 0)
-            unmix(frame, x, y, shared->plate.noise.at(column, row), grid.inner_colours[at], out, depth > 0);
           else
-            out = {};
-          if (depth <= kSpillDepth && out[3] != 0) take_spill(out);
+            out = pixel_of(p, plate.at(x, y), square);
         }
       }
     }
@@ -144,7 +160,11 @@ Keyer::Keyer(CleanPlate plate, const KeyOptions& options, const Mask& garbage) :
   shared->options = options;
   shared->limits.difference = options.tolerance * options.tolerance;
   shared->limits.min_area =
-      std::max(4.0, options.min_part / 100 * static_cast<double>(shared->grid.width) * shared->grid.height);
+      std::max(4.0, options.min_part / 100 * static_cast<double>(shared->grid.sums.width) * shared->grid.sums.height);
+  const bool is_coloured = plate.kind == ScreenKind::kGreen || plate.kind == ScreenKind::kBlue;
+  // A coloured screen in shadow keeps its colour; white and grey clothes look like a plain one in other light.
+  if (is_coloured) shared->limits.light = {0.35F, 0.15F};
+  if (!is_coloured) shared->limits.min_hole = 0.0003 * static_cast<double>(shared->grid.inverse_variances.size());
   shared->screen_channel = plate.kind == ScreenKind::kGreen ? 1 : plate.kind == ScreenKind::kBlue ? 2 : -1;
   state_->canvas.resize(plate.picture.pixels.size());
   shared->plate = std::move(plate);

@@ -6,35 +6,137 @@
 #include <cmath>
 #include <cstddef>
 
+#include "motex/core/wide.h"
+
 namespace motex {
 namespace {
 
+constexpr float kCertain = 3;     // times the limit: squares that show the actor for sure
+constexpr int kGrowth = 3;        // squares; how far from these less different ones are believed
+constexpr float kTrace = 0.002F;  // of the mean difference of what is certain: what differs less is blur or ringing
+constexpr double kFaint = 0.015;  // of the largest part's mean difference: what differs less is a trace of light
+
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
-/// Two rows of pixels added up, byte by byte; a missing last column is the one before.
-void add_rows(const Image& image, int row, int width, std::vector<std::int16_t>& sums) {
-  const auto* upper = &image.at(0, 2 * row).r;
-  const auto* lower = &image.at(0, std::min(2 * row + 1, image.height - 1)).r;
-  const std::size_t count = size(image.width) * 4;
-  sums.resize(size(width) * 8);
-  for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<std::int16_t>(upper[i] + lower[i]);
-  for (std::size_t i = count; i < sums.size(); ++i) sums[i] = sums[i - 4];
+/// Light of the frame to that of the plate, over squares whose colour is near the plate's.
+std::array<float, 3> frame_gains(const SquareSums& frame, const SquareSums& plate, const LightRange& light) {
+  constexpr int kStep = 6;
+  constexpr float kDark = 40;  // added to both: what is dark says little about light
+  std::array<float, 3> gains{1, 1, 1};
+  for (const float reach : {14.0F, 7.0F}) {
+    std::array<float, 3> seen{}, expected{};
+    int count = 0, all = 0;
+    for (int y = kStep / 2; y < frame.height; y += kStep) {
+      for (int x = kStep / 2; x < frame.width; x += kStep, ++all) {
+        const std::size_t i = frame.index(x, y);
+        std::array<float, 3> s{}, p{};
+        for (std::size_t c = 0; c < 3; ++c) s[c] = frame.channels[c][i], p[c] = plate.channels[c][i];
+        const std::array<float, 3> g{gains[0] * p[0], gains[1] * p[1], gains[2] * p[2]};
+        const float square = squared_difference(s[0] - g[0], s[1] - g[1], s[2] - g[2], g[0], g[1], g[2], light);
+        if (square > 16 * 3 * reach * reach) continue;
+        for (std::size_t c = 0; c < 3; ++c) seen[c] += s[c], expected[c] += p[c];
+        ++count;
+      }
+    }
+    if (count * 10 < all) return {1, 1, 1};
+    const float dark = kDark * static_cast<float>(count);
+    for (std::size_t c = 0; c < 3; ++c) gains[c] = std::clamp((seen[c] + dark) / (expected[c] + dark), 0.8F, 1.25F);
+  }
+  return gains;
 }
 
-void differences_of_row(const Image& frame, const PlateGrid& plate, int row, float* differences,
-                        std::vector<std::int16_t>& sums) {
-  add_rows(frame, row, plate.width, sums);
-  const std::int16_t* background = plate.sums.data() + size(row) * size(plate.width) * 8;
-  const float* inverse = plate.inverse_variances.data() + size(row) * size(plate.width);
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = static_cast<std::int16_t>(sums[i] - background[i]);
-  for (std::size_t x = 0; x < size(plate.width); ++x) {
-    const std::int16_t* s = sums.data() + 8 * x;
-    const int r = s[0] + s[4], g = s[1] + s[5], b = s[2] + s[6];
-    differences[x] = static_cast<float>(r * r + g * g + b * b) * inverse[x];
+MOTEX_WIDE void find_differences(const SquareSums& frame, const PlateGrid& plate, const std::array<float, 3>& gains,
+                                 const LightRange& light, float* out) {
+  const std::size_t count = plate.inverse_variances.size();
+  const std::uint16_t *r = frame.channels[0].data(), *g = frame.channels[1].data(), *b = frame.channels[2].data();
+  const std::uint16_t *pr = plate.sums.channels[0].data(), *pg = plate.sums.channels[1].data(),
+                      *pb = plate.sums.channels[2].data();
+  const float* inverse = plate.inverse_variances.data();
+  const float gr = gains[0], gg = gains[1], gb = gains[2];
+  const LightRange range = light;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float er = gr * static_cast<float>(pr[i]), eg = gg * static_cast<float>(pg[i]),
+                eb = gb * static_cast<float>(pb[i]);
+    out[i] = inverse[i] * squared_difference(static_cast<float>(r[i]) - er, static_cast<float>(g[i]) - eg,
+                                             static_cast<float>(b[i]) - eb, er, eg, eb, range);
   }
 }
 
-/// Clears away specks; fills holes whose squares differ too much to be background.
+MOTEX_WIDE void mark_from(const float* values, std::size_t count, float limit, std::uint8_t* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = values[i] >= limit ? 1 : 0;
+}
+
+MOTEX_WIDE void largest_of_three(const std::uint8_t* a, const std::uint8_t* b, const std::uint8_t* c, std::size_t count,
+                                 std::uint8_t* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t most = a[i] > b[i] ? a[i] : b[i];
+    out[i] = most > c[i] ? most : c[i];
+  }
+}
+
+MOTEX_WIDE void keep_both(const std::uint8_t* a, const std::uint8_t* b, std::size_t count, std::uint8_t* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = a[i] & b[i];
+}
+
+/// Rim: what is widened but not of the actor; depths begin with 1 in the actor, `outside` is 1 elsewhere.
+MOTEX_WIDE void begin_depths(const std::uint8_t* actor, std::size_t count, std::uint8_t* rim, std::uint8_t* depths,
+                             std::uint8_t* outside) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t not_actor = actor[i] ^ 1;
+    rim[i] &= not_actor;
+    depths[i] = actor[i];
+    outside[i] = not_actor;
+  }
+}
+
+MOTEX_WIDE void deepen(const std::uint8_t* outside, std::size_t count, std::uint8_t* depths) {
+  for (std::size_t i = 0; i < count; ++i) depths[i] = static_cast<std::uint8_t>(depths[i] + (outside[i] ^ 1));
+}
+
+/// Largest of the 3 × 3 neighbours inside the rows top … bottom; beyond them and the grid nothing is there.
+void widen(const std::vector<std::uint8_t>& from, int width, int top, int bottom, std::vector<std::uint8_t>& line,
+           std::vector<std::uint8_t>& to) {
+  const std::size_t count = size(width);
+  line.resize(count);
+  for (int y = top; y <= bottom; ++y) {
+    const std::uint8_t* mid = from.data() + size(y) * count;
+    const std::uint8_t *up = y > top ? mid - count : mid, *down = y < bottom ? mid + count : mid;
+    largest_of_three(up, mid, down, count, line.data());
+    std::uint8_t* out = to.data() + size(y) * count;
+    if (width < 3) {
+      std::fill_n(out, count, *std::max_element(line.begin(), line.end()));
+      continue;
+    }
+    largest_of_three(line.data(), line.data() + 1, line.data() + 2, count - 2, out + 1);
+    out[0] = std::max(line[0], line[1]);
+    out[count - 1] = std::max(line[count - 1], line[count - 2]);
+  }
+}
+
+/// Mean of the values from `limit` on; 0 without any.
+float mean_from(const std::vector<float>& values, float limit) {
+  float sum = 0;
+  int count = 0;
+  for (const float value : values)
+    if (value >= limit) sum += std::min(value, 1e5F), ++count;
+  return count == 0 ? 0 : sum / static_cast<float>(count);
+}
+
+/// Certain squares and what differs near them.
+void grow(const MatteGridLimits& limits, MatteGrid& grid) {
+  const std::size_t count = grid.differences.size();
+  std::vector<std::uint8_t>& actor = grid.actor.pixels;
+  const float certain = kCertain * static_cast<float>(limits.difference);
+  const float limit = std::max(static_cast<float>(limits.difference), kTrace * mean_from(grid.differences, certain));
+  mark_from(grid.differences.data(), count, kCertain * limit, actor.data());
+  mark_from(grid.differences.data(), count, limit, grid.level.data());
+  for (int step = 0; step < kGrowth; ++step) {
+    widen(actor, grid.width(), 0, grid.height() - 1, grid.line, grid.next_level);
+    keep_both(grid.next_level.data(), grid.level.data(), count, actor.data());
+  }
+}
+
+/// Clears away specks and traces; fills holes whose squares differ too much to be background.
 void tidy(const MatteGridLimits& limits, MatteGrid& grid) {
   find_regions(grid.actor, grid.regions);
   const std::vector<MaskRegion>& regions = grid.regions.regions;
@@ -42,121 +144,115 @@ void tidy(const MatteGridLimits& limits, MatteGrid& grid) {
   for (const RegionRun& run : grid.regions.runs) {
     const MaskRegion& region = regions[size(run.region)];
     if (!region.value && region.at_border) continue;
-    const float* row = grid.differences.data() + size(run.y) * size(grid.width);
-    double sum = 0;
+    const float* row = grid.differences.data() + grid.sums.index(0, run.y);
+    float sum = 0;
     for (int x = run.first; x <= run.last; ++x) sum += row[x];
     grid.difference_sums[size(run.region)] += sum;
   }
+  std::size_t largest = regions.size();
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (regions[i].value && (largest == regions.size() || regions[i].area > regions[largest].area)) largest = i;
+  const auto mean = [&](std::size_t i) { return grid.difference_sums[i] / static_cast<double>(regions[i].area); };
+  const double faint = largest == regions.size() ? 0 : kFaint * mean(largest);
   const auto is_wrong = [&](int idx) {
     const MaskRegion& region = regions[size(idx)];
     const auto area = static_cast<double>(region.area);
-    if (region.value) return area < limits.min_area;
-    return !region.at_border && grid.difference_sums[size(idx)] > area * (6 + 10 / std::sqrt(area));
+    if (region.value) return area < limits.min_area || mean(size(idx)) < faint;
+    return !region.at_border && (area < limits.min_hole || mean(size(idx)) > 6 + 10 / std::sqrt(area));
   };
-  grid.box = {grid.width, grid.height, -1, -1};
+  grid.box = {grid.width(), grid.height(), -1, -1};
   for (const RegionRun& run : grid.regions.runs) {
     const bool value = regions[size(run.region)].value != is_wrong(run.region);
-    std::fill_n(&grid.actor.at(run.first, run.y), run.last - run.first + 1, value ? 1 : 0);
+    std::fill_n(&grid.actor.at(run.first, run.y), run.last - run.first + 1, std::uint8_t{value});
     if (!value) continue;
     grid.box.left = std::min(grid.box.left, run.first), grid.box.right = std::max(grid.box.right, run.last);
     grid.box.top = std::min(grid.box.top, run.y), grid.box.bottom = run.y;
   }
 }
 
-/// One square wider, cut to the grid.
-BoundingBox widened(const MatteGrid& grid) {
-  return {std::max(0, grid.box.left - 1), std::max(0, grid.box.top - 1), std::min(grid.width - 1, grid.box.right + 1),
-          std::min(grid.height - 1, grid.box.bottom + 1)};
+/// Depth of each square by wearing away from where the actor is not; beyond the frame he goes on.
+void find_depths(MatteGrid& grid) {
+  const BoundingBox box = grid.rim_box();
+  const std::size_t begin = grid.sums.index(0, box.top), count = grid.sums.index(0, box.bottom + 1) - begin;
+  const std::vector<std::uint8_t>& actor = grid.actor.pixels;
+  widen(actor, grid.width(), box.top, box.bottom, grid.line, grid.rim);
+  begin_depths(&actor[begin], count, &grid.rim[begin], &grid.depths[begin], &grid.level[begin]);
+  for (int depth = 1; depth < MatteGrid::kInside; ++depth) {
+    widen(grid.level, grid.width(), box.top, box.bottom, grid.line, grid.next_level);
+    std::swap(grid.level, grid.next_level);
+    deepen(&grid.level[begin], count, &grid.depths[begin]);
+  }
 }
 
-/// Smallest of the 3 × 3 neighbours' values; beyond the frame the actor goes on.
-void find_depths(MatteGrid& grid) {
-  const auto at = [&](int x, int y) { return size(y) * size(grid.width) + size(x); };
-  const BoundingBox box = widened(grid);
-  grid.depths.resize(grid.actor.pixels.size());
-  grid.rim.resize(grid.actor.pixels.size());
-  for (int y = box.top; y <= box.bottom; ++y)
-    for (int x = box.left; x <= box.right; ++x) grid.depths[at(x, y)] = grid.actor.at(x, y) ? 1 : 0;
+using Weighted = std::array<float, 4>;
+constexpr int kReach = 2;  // squares on either side, of one of two passes of the mean
+
+MOTEX_WIDE void sum_of_five(const float* a, const float* b, const float* c, const float* d, const float* e,
+                            std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = a[i] + b[i] + c[i] + d[i] + e[i];
+}
+
+/// Sums over ± kReach squares each way; lines outside the box are zero.
+void sum_around(const BoundingBox& box, std::size_t stride, const std::vector<Weighted>& from,
+                std::vector<Weighted>& line, std::vector<Weighted>& to) {
+  static const std::vector<Weighted> kNothing(16384 + 1);
+  const std::size_t count = size(box.width());
+  line.assign(count + 2 * kReach, Weighted{});
+  const auto row = [&](int y) {
+    return y < box.top || y > box.bottom ? kNothing[0].data() : from[size(y) * stride + size(box.left)].data();
+  };
   for (int y = box.top; y <= box.bottom; ++y) {
-    for (int x = box.left; x <= box.right; ++x) {
-      std::uint8_t most = 0;
-      for (int v = std::max(box.top, y - 1); v <= std::min(box.bottom, y + 1); ++v)
-        for (int u = std::max(box.left, x - 1); u <= std::min(box.right, x + 1); ++u)
-          most = std::max(most, grid.depths[at(u, v)]);
-      grid.rim[at(x, y)] = most != 0 && grid.depths[at(x, y)] == 0 ? 1 : 0;
-    }
+    sum_of_five(row(y - 2), row(y - 1), row(y), row(y + 1), row(y + 2), 4 * count, line[kReach].data());
+    sum_of_five(line[0].data(), line[1].data(), line[2].data(), line[3].data(), line[4].data(), 4 * count,
+                to[size(y) * stride + size(box.left)].data());
   }
-  grid.eroded.resize(grid.depths.size());
-  for (int depth = 1; depth < MatteGrid::kInside; ++depth) {
-    for (int y = box.top; y <= box.bottom; ++y) {
-      for (int x = box.left; x <= box.right; ++x) {
-        bool inside = grid.depths[at(x, y)] == depth;
-        for (int v = std::max(box.top, y - 1); inside && v <= std::min(box.bottom, y + 1); ++v)
-          for (int u = std::max(box.left, x - 1); inside && u <= std::min(box.right, x + 1); ++u)
-            inside = grid.depths[at(u, v)] >= depth;
-        grid.eroded[at(x, y)] = inside ? 1 : 0;
+}
+
+void carry_colours(MatteGrid& grid) {
+  // Squares at the rim are mixed with the background, those next to them may be by a camera's or codec's blur.
+  constexpr std::array<float, MatteGrid::kInside + 1> kWeights{0, 0.001F, 0.3F, 1, 1, 1, 1};
+  constexpr std::array<float, MatteGrid::kInside + 1> kDeepWeights{0, 1e-5F, 1e-4F, 0.003F, 0.05F, 0.3F, 1};
+  constexpr int kCell = MatteGrid::kCell;
+  const BoundingBox box = grid.rim_box();
+  grid.cells_across = (grid.width() + kCell - 1) / kCell;
+  std::fill(grid.cells.begin(), grid.cells.end(), Weighted{});
+  const std::uint16_t *red = grid.sums.channels[0].data(), *green = grid.sums.channels[1].data(),
+                      *blue = grid.sums.channels[2].data();
+  for (int y = box.top; y <= box.bottom; ++y) {
+    Weighted* cells = &grid.cells[size(y / kCell) * size(grid.cells_across)];
+    for (int x = box.left; x <= box.right; ++x) {
+      const std::size_t i = grid.sums.index(x, y);
+      const std::uint8_t depth = grid.depths[i];
+      Weighted& out = grid.weighted[i];
+      out = {};
+      if (depth == 0) continue;
+      const Weighted colour{static_cast<float>(red[i]), static_cast<float>(green[i]), static_cast<float>(blue[i]), 4};
+      Weighted& cell = cells[x / kCell];
+      for (std::size_t c = 0; c < 4; ++c) {
+        out[c] = kWeights[depth] * colour[c];
+        cell[c] += kDeepWeights[depth] * colour[c];
       }
     }
-    for (int y = box.top; y <= box.bottom; ++y)
-      for (int x = box.left; x <= box.right; ++x)
-        grid.depths[at(x, y)] = static_cast<std::uint8_t>(grid.depths[at(x, y)] + grid.eroded[at(x, y)]);
   }
-}
-
-constexpr int kReach = 2;  // of one pass of the mean, squares
-
-/// Means over ± kReach squares along a line, by running sums of a line with zeros beyond its ends.
-void sum_along(const std::array<float, 4>* from, std::array<float, 4>* to, int count, std::size_t step) {
-  std::array<float, 4> sum{};
-  const auto add = [&](int i, float sign) {
-    if (i < 0 || i >= count) return;
-    for (std::size_t c = 0; c < 4; ++c) sum[c] += sign * from[size(i) * step][c];
-  };
-  for (int i = 0; i < kReach; ++i) add(i, 1);
-  for (int i = 0; i < count; ++i) {
-    add(i + kReach, 1);
-    to[size(i) * step] = sum;
-    add(i - kReach, -1);
-  }
-}
-
-void carry_colours(const Image& frame, MatteGrid& grid) {
-  constexpr std::array<float, MatteGrid::kInside + 1> kWeights{0, 0.001F, 0.05F, 1, 1};
-  const BoundingBox box = widened(grid);
-  grid.inner_colours.resize(grid.actor.pixels.size());
-  grid.blurred.resize(grid.actor.pixels.size());
-  const auto at = [&](int x, int y) { return size(y) * size(grid.width) + size(x); };
-  for (int y = box.top; y <= box.bottom; ++y) {
-    for (int x = box.left; x <= box.right; ++x) {
-      const float weight = kWeights[grid.depths[at(x, y)]];
-      std::array<float, 4>& sum = grid.inner_colours[at(x, y)];
-      sum = {};
-      if (weight == 0) continue;
-      const int right = std::min(2 * x + 1, frame.width - 1), bottom = std::min(2 * y + 1, frame.height - 1);
-      const Rgba &a = frame.at(2 * x, 2 * y), &b = frame.at(right, 2 * y), &c = frame.at(2 * x, bottom),
-                 &d = frame.at(right, bottom);
-      sum = {weight * static_cast<float>(a.r + b.r + c.r + d.r), weight * static_cast<float>(a.g + b.g + c.g + d.g),
-             weight * static_cast<float>(a.b + b.b + c.b + d.b), 4 * weight};
-    }
-  }
-  for (int pass = 0; pass < 2; ++pass) {
-    for (int y = box.top; y <= box.bottom; ++y)
-      sum_along(&grid.inner_colours[at(box.left, y)], &grid.blurred[at(box.left, y)], box.width(), 1);
-    for (int x = box.left; x <= box.right; ++x)
-      sum_along(&grid.blurred[at(x, box.top)], &grid.inner_colours[at(x, box.top)], box.height(), size(grid.width));
-  }
+  const std::size_t stride = size(grid.width());
+  sum_around(box, stride, grid.weighted, grid.line_sums, grid.near_colours);
+  sum_around(box, stride, grid.near_colours, grid.line_sums, grid.around_colours);
+  const BoundingBox cells{0, box.top / kCell, grid.cells_across - 1, box.bottom / kCell};
+  sum_around(cells, size(grid.cells_across), grid.cells, grid.line_sums, grid.deep_colours);
 }
 
 }  // namespace
 
+BoundingBox MatteGrid::rim_box() const {
+  return {std::max(0, box.left - 1), std::max(0, box.top - 1), std::min(width() - 1, box.right + 1),
+          std::min(height() - 1, box.bottom + 1)};
+}
+
 PlateGrid plate_grid(const CleanPlate& plate, const Mask& garbage) {
   PlateGrid grid;
-  grid.width = (plate.picture.width + 1) / 2, grid.height = (plate.picture.height + 1) / 2;
-  std::vector<std::int16_t> row;
-  for (int y = 0; y < grid.height; ++y) {
-    add_rows(plate.picture, y, grid.width, row);
-    grid.sums.insert(grid.sums.end(), row.begin(), row.end());
-    for (int x = 0; x < grid.width; ++x) {
+  sum_squares(plate.picture, grid.sums);
+  for (int y = 0; y < grid.sums.height; ++y) {
+    for (int x = 0; x < grid.sums.width; ++x) {
       const float noise = plate.noise.at(x, y);
       const bool left_out = garbage.width > 0 && garbage.at(2 * x, 2 * y);
       grid.inverse_variances.push_back(left_out ? 0 : 1 / (4 * noise * noise));
@@ -166,20 +262,24 @@ PlateGrid plate_grid(const CleanPlate& plate, const Mask& garbage) {
 }
 
 void find_actor(const Image& frame, const PlateGrid& plate, const MatteGridLimits& limits, MatteGrid& grid) {
-  if (grid.width != plate.width || grid.height != plate.height) {
-    grid.width = plate.width, grid.height = plate.height;
-    grid.actor = Mask(plate.width, plate.height);
-    grid.differences.resize(grid.actor.pixels.size());
+  sum_squares(frame, grid.sums);
+  if (grid.actor.width != grid.width() || grid.actor.height != grid.height()) {
+    grid.actor = Mask(grid.width(), grid.height());
+    const std::size_t count = grid.actor.pixels.size();
+    grid.differences.resize(count);
+    for (auto* bytes : {&grid.depths, &grid.rim, &grid.level, &grid.next_level}) bytes->resize(count);
+    for (auto* colours : {&grid.weighted, &grid.near_colours, &grid.around_colours}) colours->resize(count);
+    const auto cells = [](int squares) { return size((squares + MatteGrid::kCell - 1) / MatteGrid::kCell); };
+    grid.cells.resize(cells(grid.width()) * cells(grid.height()));
+    grid.deep_colours.resize(grid.cells.size());
   }
-  std::vector<std::int16_t> sums;
-  for (int y = 0; y < grid.height; ++y)
-    differences_of_row(frame, plate, y, grid.differences.data() + size(y) * size(grid.width), sums);
-  const auto limit = static_cast<float>(limits.difference);
-  for (std::size_t i = 0; i < grid.differences.size(); ++i) grid.actor.pixels[i] = grid.differences[i] >= limit ? 1 : 0;
+  grid.gains = frame_gains(grid.sums, plate.sums, limits.light);
+  find_differences(grid.sums, plate, grid.gains, limits.light, grid.differences.data());
+  grow(limits, grid);
   tidy(limits, grid);
   if (grid.box.empty()) return;
   find_depths(grid);
-  carry_colours(frame, grid);
+  carry_colours(grid);
 }
 
 }  // namespace motex

@@ -10,7 +10,9 @@
 
 namespace motex {
 
-constexpr double kLeastPlateNoise = 0.7;  ///< grey levels: rounding to 8 bits and a little
+constexpr double kLeastPlateNoise =
+    1.2;  ///< grey levels: rounding to 8 bits, and what a codec adds near whatever moves
+constexpr double kLargestPlateNoise = 12;  ///< what varies more is not noise
 
 enum class PlateTexture {
   kSmooth,   ///< a screen: noise is alike over tens of pixels

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "motex/image/flat_colours.h"
+#include "motex/people/sprite.h"
+
+namespace motex {
+
+/// Colours that the actor may have near a pixel at his rim.
+struct FrontColours {
+  LevelTriple near{}, around{};  ///< means over ± 4 and ± 8 pixels
+  bool known = false;
+};
+
+/// α of I = α F + (1 − α) B for the F among `fronts` whose line to B the pixel lies nearest to:
+///   α = (I − B)·(F − B) / (|F − B|² · 0.96)
+/// (the rim has about 4 % more of the screen's light on it than what F was carried from), cut off at 0 and 1 and within
+/// two deviations of them. inside: squares to the nearest one that is background; where the pixel lies off all lines,
+/// far from B and not at the very rim it is another material and opaque. noise: deviation of a channel.
+inline float unmixed_alpha(const LevelTriple& pixel, const LevelTriple& back, const FrontColours& fronts, float noise,
+                           int inside) {
+  constexpr float kSpilled = 0.96F, kDeadBand = 2, kOffLine = 5, kContrast = 0.25F;
+  const float dr = pixel[0] - back[0], dg = pixel[1] - back[1], db = pixel[2] - back[2];
+  const float difference = dr * dr + dg * dg + db * db;
+  float best_along = 0, best_length = 0, best_rest = -1;
+  for (const LevelTriple* front : {&fronts.near, &fronts.around}) {
+    const float fr = (*front)[0] - back[0], fg = (*front)[1] - back[1], fb = (*front)[2] - back[2];
+    const float length = fr * fr + fg * fg + fb * fb, along = dr * fr + dg * fg + db * fb;
+    if (length < 9 * noise * noise) continue;
+    const float rest = difference - along * along / length;
+    if (best_rest >= 0 && rest >= best_rest) continue;
+    best_along = along, best_length = length, best_rest = rest;
+  }
+  if (best_rest < 0) return inside > 0 ? 1.0F : 0.0F;
+  const float limit = kOffLine * noise;
+  if (inside > 1 && best_rest > limit * limit && difference > kContrast * kContrast * best_length) return 1;
+  const float alpha = best_along / (kSpilled * best_length);
+  const float band = std::min(0.25F, kDeadBand * noise / std::sqrt(best_length));
+  if (alpha < band) return 0;
+  return alpha > 1 - band ? 1 : alpha;
+}
+
+/// Share s of the screen's light in a colour F = (1 − s) F₀ + s B of the actor, F₀ his colour further inside: the
+/// projection of F − F₀ on B − F₀ where F lies near that line; else what `excess` of B's leading channel over the other
+/// two F has beyond F₀'s and beyond 0, so that green clothes stay green. 0 … 0.4.
+float spill_share(const LevelTriple& colour, const LevelTriple& inner, const LevelTriple& screen, int screen_channel);
+
+}  // namespace motex
