@@ -3,10 +3,10 @@
 // What the paper leaves for later: forks and merges of cables, interaction of neighbours, depth from parallax; on water
 // (carried bases), on real snow and birds and on simulated ones (tracked), where there is no interaction and no depth.
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/particles/clip_background.h"
 #include "motex/particles/depth.h"
@@ -71,8 +71,6 @@ ClipFrames frames_of(const SimulatedScene& scene) {
 
 int main() {
   using namespace motex;
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  const fs::path data = given != nullptr && given[0] != '\0' ? fs::path(given) : fs::path(MOTEX_SHARED_DATA) / "video";
   SimulateSnowOptions snow;
   snow.frames = kMostFrames;
   measure_tracked("simulated snow", frames_of(simulate_snow(snow)));
@@ -82,18 +80,8 @@ int main() {
   measure_tracked("simulated birds", frames_of(simulate_birds(birds)));
   LoadVideoClipOptions load;
   load.num_frames = kMostFrames;
-  for (const char* clip : {"textured/snow_forest_320x240.mp4", "textured/birds_sky_480x270.mp4"}) {
-    try {
-      measure_tracked(clip, load_video_clip(data / clip, load));
-    } catch (const Error& error) {
-      std::printf("%s\n", error.what());
-    }
-  }
-  for (const char* clip : {"textured/waterfall_pool_320x240.mp4", "textured/waterfall_kjos_320x240.mp4"}) {
-    try {
-      measure_water(data / clip);
-    } catch (const Error& error) {
-      std::printf("%s\n", error.what());
-    }
-  }
+  bench::for_each_clip(
+      {"textured/snow_forest_320x240.mp4", "textured/birds_sky_480x270.mp4"},
+      [&](const fs::path& path) { measure_tracked(path.filename().string(), load_video_clip(path, load)); });
+  bench::for_each_clip({"textured/waterfall_pool_320x240.mp4", "textured/waterfall_kjos_320x240.mp4"}, measure_water);
 }

@@ -5,10 +5,10 @@
 // With free bases alone, and with elements that were followed stored as paths. The model alone:
 // generative_model_bytes().
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/particles/carry_bases.h"
 #include "motex/particles/clip_background.h"
@@ -105,15 +105,8 @@ ClipFrames simulated(double elements, std::uint64_t seed) {
 }
 
 int run() {
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  const std::filesystem::path folder = given != nullptr && given[0] != '\0'
-                                           ? std::filesystem::path(given)
-                                           : std::filesystem::path(MOTEX_SHARED_DATA) / "video";
-  try {
-    measure("snow_forest", load_video_clip(folder / "textured" / "snow_forest_320x240.mp4"));
-  } catch (const Error& error) {
-    std::printf("%s\n", error.what());
-  }
+  bench::for_each_clip({"textured/snow_forest_320x240.mp4"},
+                       [](const std::filesystem::path& path) { measure("snow_forest", load_video_clip(path)); });
   for (const double elements : {60.0, 150.0, 300.0})
     measure("simulated snow, " + std::to_string(static_cast<int>(elements)) + " a frame",
             simulated(elements, 7 + static_cast<std::uint64_t>(elements)));

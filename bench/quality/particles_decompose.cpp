@@ -3,36 +3,25 @@
 // Matching pursuit on the middle frame (luma) of each clip: processor seconds for 800 bases, PSNR at 100 … 800, with
 // the paper's dictionary and the extended one, over a background and, as in the paper, over one level.
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/image/planes.h"
 #include "motex/particles/background.h"
 #include "motex/particles/pursuit.h"
+#include "motex/particles/simulate.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex {
 namespace {
 
-constexpr const char* kClips[] = {"textured/snow_forest_320x240.mp4",
-                                  "textured/snow_birch_480x270.mp4",
-                                  "textured/birds_sky_480x270.mp4",
-                                  "textured/fireworks_repeat_480x270.mp4",
-                                  "textured/waterfall_kjos_320x240.mp4",
-                                  "textured/waterfall_pool_320x240.mp4",
-                                  "synth/synth_snow.mkv"};
 const std::vector<int> kCounts{100, 200, 400, 800};
 
 double processor_secs() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-Planes minus(Planes a, const Planes& b) {
-  for (std::size_t i = 0; i < a[0].values.size(); ++i) a[0].values[i] -= b[0].values[i];
-  return a;
-}
 
 void measure(const std::string& name, const char* setting, const Planes& frame, const Planes& background,
              const PursueOptions& options) {
@@ -52,13 +41,9 @@ void measure(const std::string& name, const char* setting, const Planes& frame, 
   std::fflush(stdout);
 }
 
-void measure_clip(const std::filesystem::path& path) {
-  VideoReader reader(path);
-  std::vector<Planes> frames;
-  for (VideoFrame frame; frames.size() < 121 && reader.next(frame);) frames.push_back({luma(frame.image)});
+void measure_frames(const std::string& name, const std::vector<Planes>& frames) {
   const Planes& frame = frames[frames.size() / 2];
   BackgroundKind median = BackgroundKind::kMedian, flat = BackgroundKind::kFlat;
-  const std::string name = path.filename().string();
   const Planes over_time = estimate_background(frame, frames, median);
   PursueOptions extended, paper, grid;
   paper.dictionary = grid.dictionary = Dictionary::kPaper;
@@ -69,18 +54,28 @@ void measure_clip(const std::filesystem::path& path) {
   measure(name, "paper, one level", frame, estimate_background(frame, frames, flat), paper);
 }
 
+void measure_clip(const std::filesystem::path& path) {
+  VideoReader reader(path);
+  std::vector<Planes> frames;
+  for (VideoFrame frame; frames.size() < 121 && reader.next(frame);) frames.push_back({luma(frame.image)});
+  measure_frames(path.filename().string(), frames);
+}
+
+void measure_simulated() {
+  SimulateSnowOptions options;
+  options.frames = 61;
+  std::vector<Planes> frames;
+  for (const Image& image : simulate_snow(options).frames) frames.push_back({luma(image)});
+  measure_frames("simulated snow", frames);
+}
+
 int run() {
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  const std::filesystem::path folder = given != nullptr && given[0] != '\0'
-                                           ? std::filesystem::path(given)
-                                           : std::filesystem::path(MOTEX_SHARED_DATA) / "video";
-  for (const char* clip : kClips) {
-    try {
-      measure_clip(folder / clip);
-    } catch (const Error& error) {
-      std::printf("%s\n", error.what());
-    }
-  }
+  const int num_found = bench::for_each_clip(
+      {"textured/snow_forest_320x240.mp4", "textured/snow_birch_480x270.mp4", "textured/birds_sky_480x270.mp4",
+       "textured/fireworks_repeat_480x270.mp4", "textured/waterfall_kjos_320x240.mp4",
+       "textured/waterfall_pool_320x240.mp4", "synth/synth_snow.mkv"},
+      measure_clip);
+  if (num_found == 0) measure_simulated();
   return 0;
 }
 

@@ -5,11 +5,11 @@
 // among the models, and without it (only other clips of the class can win).
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/particles/clip_background.h"
 #include "motex/particles/explain.h"
@@ -83,10 +83,6 @@ void recognise(const std::vector<Halves>& all, bool with_own) {
 }
 
 int run() {
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  const std::filesystem::path folder = given != nullptr && given[0] != '\0'
-                                           ? std::filesystem::path(given)
-                                           : std::filesystem::path(MOTEX_SHARED_DATA) / "video";
   const std::vector<std::pair<const char*, std::size_t>> clips{{"textured/snow_forest_320x240.mp4", 0},
                                                                {"textured/snow_birch_480x270.mp4", 0},
                                                                {"dyntex/siims_snow2_64.avi", 0},
@@ -101,11 +97,10 @@ int run() {
                                                                {"textured/waterfall_pool_320x240.mp4", 3},
                                                                {"dyntex/siims_waterfall1_64.avi", 3}};
   std::vector<Halves> all;
-  for (const auto& [name, class_idx] : clips) try {
-      add(all, name, class_idx, load_video_clip(folder / name));
-    } catch (const Error& error) {
-      std::printf("%s: %s\n", name, error.what());
-    }
+  for (const auto& [name, class_idx] : clips)
+    bench::for_each_clip({name}, [&, name = name, class_idx = class_idx](const std::filesystem::path& path) {
+      add(all, name, class_idx, load_video_clip(path));
+    });
   for (const std::uint64_t seed : {5U, 6U}) {
     SimulateSnowOptions snow;
     snow.seed = seed;

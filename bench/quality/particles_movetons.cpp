@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/particles/background.h"
@@ -225,13 +226,12 @@ void measure(const std::filesystem::path& video, const std::filesystem::path& tr
 
 int run(int argc, char** argv) {
   std::vector<std::filesystem::path> files(argv + 1, argv + argc);
-  if (files.empty()) {
-    const std::filesystem::path folder = std::filesystem::path(MOTEX_SHARED_DATA) / "video/synth";
-    for (const char* name : {"synth_birds", "synth_snow", "synth_fireworks"}) {
-      files.push_back(folder / (std::string(name) + ".mkv"));
-      files.push_back(folder / (std::string(name) + "_tracks.csv"));
-    }
-  }
+  if (files.empty())
+    bench::for_each_clip({"synth/synth_birds.mkv", "synth/synth_snow.mkv", "synth/synth_fireworks.mkv"},
+                         [&](const std::filesystem::path& path) {
+                           files.push_back(path);
+                           files.push_back(path.parent_path() / (path.stem().string() + "_tracks.csv"));
+                         });
   for (std::size_t i = 0; i + 1 < files.size(); i += 2) {
     try {
       measure(files[i], files[i + 1]);

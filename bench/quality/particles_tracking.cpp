@@ -3,19 +3,20 @@
 // Tracking against known truth: β, JSC over tracks and the position error of detection and linking from frames (the
 // flow learned and not told), of linking given detections, and processor seconds. Scenes: NAME.mkv with NAME_gt.csv
 // (and NAME_det.csv: frame, x, y) or NAME_tracks.csv in the folders of MOTEX_BENCH_DATA (separated by ':'; a folder
-// named jsc: gate 3 px, 6 px of border ignored), without it those of shared/data/video/synth.
+// named jsc: gate 3 px, 6 px of border ignored), without it those of shared/data/video/synth, else simulated ones.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <sstream>
 #include <string>
 
+#include "bench/particle_clips.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/particles/background.h"
 #include "motex/particles/cable_tracks.h"
+#include "motex/particles/simulate.h"
 #include "motex/particles/track_elements.h"
 #include "motex/particles/track_score.h"
 #include "motex/project/load_video_clip.h"
@@ -68,23 +69,28 @@ std::vector<std::vector<TrackPoint>> read_detections(const fs::path& path, int n
   return frames;
 }
 
-void measure(const fs::path& video, const fs::path& truth_path, const Rule& rule) {
-  const std::string name = video.parent_path().filename().string() + "/" + video.stem().string();
-  const ClipFrames clip = load_video_clip(video);
-  const std::vector<Track> truth = parse_tracks_csv(read_file(truth_path), truth_path.string());
+void measure_frames(const std::string& name, const ClipFrames& clip, const std::vector<Track>& truth,
+                    const Rule& rule) {
   std::vector<Planes> frames;
   for (const Plane& plane : clip.luma) frames.push_back({plane});
   const Plane background = quantile_over_time(frames, 0.5)[0];
   JobContext one_core;
   one_core.jobs = 1;
   TrackElementsReport report;
-  double start = processor_secs();
+  const double start = processor_secs();
   const std::vector<Cable> cables = track_elements(clip, background, 0, {}, one_core, &report);
   print(name, "frames", truth, tracks_of(cables, 1), clip, rule, report.link, processor_secs() - start);
+}
+
+void measure(const fs::path& video, const fs::path& truth_path, const Rule& rule) {
+  const std::string name = video.parent_path().filename().string() + "/" + video.stem().string();
+  const ClipFrames clip = load_video_clip(video);
+  const std::vector<Track> truth = parse_tracks_csv(read_file(truth_path), truth_path.string());
+  measure_frames(name, clip, truth, rule);
   const fs::path given = video.parent_path() / (video.stem().string() + "_det.csv");
   if (!fs::exists(given)) return;
   LinkReport linking;
-  start = processor_secs();
+  const double start = processor_secs();
   const std::vector<Track> tracks =
       link_points(read_detections(given, clip.num_frames()), clip.width, clip.height, {}, &linking);
   print(name, "detections", truth, tracks, clip, rule, linking, processor_secs() - start);
@@ -103,10 +109,27 @@ void measure_folder(const fs::path& folder) {
     }
 }
 
+void measure_scene(const std::string& name, const SimulatedScene& scene) {
+  measure_frames(name, clip_frames_of(scene), tracks_of(true_cables(scene), clip_frames_of(scene).num_planes()), {});
+}
+
+void measure_simulated() {
+  for (const double elements : {60.0, 150.0, 300.0}) {
+    SimulateSnowOptions snow;
+    snow.elements = elements;
+    measure_scene("snow, " + std::to_string(static_cast<int>(elements)) + " a frame", simulate_snow(snow));
+  }
+  measure_scene("birds", simulate_birds());
+  measure_scene("fireworks", simulate_fireworks());
+}
+
 int run() {
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  std::string folders = given != nullptr ? given : "";
-  if (folders.empty()) folders = (fs::path(MOTEX_SHARED_DATA) / "video").string();
+  const std::string folders = bench::clip_folder().string();
+  if (folders.find(':') == std::string::npos && !fs::is_directory(folders)) {
+    std::printf("no scenes in %s: some are simulated\n", folders.c_str());
+    measure_simulated();
+    return 0;
+  }
   std::istringstream list(folders);
   for (std::string folder; std::getline(list, folder, ':');) {
     try {

@@ -7,13 +7,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "bench/particle_clips.h"
 #include "bench/peers/linear_dynamic_texture.h"
 #include "motex/audio/fourier.h"
 #include "motex/core/error.h"
@@ -263,16 +263,8 @@ void measure(const fs::path& path, const std::string& folder) {
 }  // namespace motex
 
 int main(int argc, char** argv) {
-  const char* given = std::getenv("MOTEX_BENCH_DATA");
-  const std::filesystem::path data = given != nullptr && given[0] != '\0'
-                                         ? std::filesystem::path(given)
-                                         : std::filesystem::path(MOTEX_SHARED_DATA) / "video";
-  for (const char* clip : {"textured/waterfall_pool_320x240.mp4", "textured/waterfall_kjos_320x240.mp4",
-                           "dyntex/dyntex_6486110_fountain.avi", "dyntex/dyntex_55fa210_boiling_water.avi"}) {
-    try {
-      motex::measure(data / clip, argc > 1 ? argv[1] : "");
-    } catch (const motex::Error& error) {
-      std::printf("%s\n", error.what());
-    }
-  }
+  motex::bench::for_each_clip(
+      {"textured/waterfall_pool_320x240.mp4", "textured/waterfall_kjos_320x240.mp4",
+       "dyntex/dyntex_6486110_fountain.avi", "dyntex/dyntex_55fa210_boiling_water.avi"},
+      [&](const std::filesystem::path& path) { motex::measure(path, argc > 1 ? argv[1] : ""); });
 }
