@@ -3,14 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "motex/core/error.h"
 #include "motex/people/measure_silhouette.h"
 #include "motex/people/people_texture.h"
 #include "motex/people/sprite.h"
-#include "motex/project/keyed_footage.h"
+#include "motex/project/people_footage.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex::bench {
@@ -47,14 +49,19 @@ inline PeopleClip load_dancer(const std::string& folder) {
   return clip;
 }
 
-/// A clip without cuts, keyed.
+/// A clip read as `motex people learn` reads it: hard cuts found, keyed, one take a person and shot.
 inline PeopleClip load_keyed(const std::string& path) {
+  std::map<int, std::vector<Sprite>> tracks;
+  const PeopleFootage footage =
+      read_people_footage(path, {}, [&](int track, int, const Sprite& sprite) { tracks[track].push_back(sprite); });
   PeopleClip clip;
-  KeyedFootage footage(path);
-  clip.texture.width = footage.info().width, clip.texture.height = footage.info().height;
-  clip.texture.frames_per_sec = footage.info().frames_per_sec;
-  for (KeyedFrame frame; footage.next(frame);) add_frame(clip, std::move(frame.sprite));
-  clip.texture.takes = {{path, 0, 0, false, {0, clip.texture.num_frames()}}};
+  clip.texture = people_texture_of(footage);
+  for (const FilmedTake& take : footage.takes) {
+    std::vector<Sprite>& sprites = tracks.at(take.track);
+    if (static_cast<int>(sprites.size()) != take.take.frames.length)
+      throw InvalidInput("a take of " + path + " has not as many pictures as frames");
+    for (Sprite& sprite : sprites) clip.sprites.push_back(std::move(sprite));
+  }
   return clip;
 }
 

@@ -146,9 +146,10 @@ void measure(const std::string& name, bench::PeopleClip clip, const std::string&
       of_column.push_back(cut_quality(shown.frames, scales));
       columns[k].add(of_column.back(), shown.milliseconds);
       if (k == 0)
-        std::printf("    %4d → %4d  difference %5.1f  %-8s  errors: morph %.1f flow %.1f dissolve %.1f\n", cuts[c].from,
-                    cuts[c].to, cuts[c].difference, name_of(shown.report.renderer), shown.report.morph_error,
-                    shown.report.flow_error, shown.report.dissolve_error);
+        std::printf("    %4d → %4d  difference %5.1f  %-8s  errors: morph %.1f flow %.1f (%.2f) dissolve %.1f\n",
+                    cuts[c].from, cuts[c].to, cuts[c].difference, name_of(shown.report.renderer),
+                    shown.report.morph_error, shown.report.flow_error, shown.report.flow_consistency,
+                    shown.report.dissolve_error);
       if (!strips.empty())
         write_strip(strips + "/" + name + "_" + std::to_string(c) + "_" + columns[k].name + ".png", shown.frames);
     }

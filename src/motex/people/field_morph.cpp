@@ -137,7 +137,7 @@ Sprite field_morph(const PlacedSprite& a, const PlacedSprite& b, const std::vect
   const BoundingBox box = joined(box_of(a.sprite, a.placement), box_of(b.sprite, b.placement));
   if (box.empty()) return {};
   const WarpGrid to_a = field_warp(shown, in_a, box, options), to_b = field_warp(shown, in_b, box, options);
-  return dissolved({a.sprite, a.placement, to_a}, {b.sprite, b.placement, to_b}, dissolve, box, jobs);
+  return dissolved({a, to_a}, {b, to_b}, dissolve, box, jobs);
 }
 
 Sprite cross_dissolve(const PlacedSprite& a, const PlacedSprite& b, double weight, int jobs) {

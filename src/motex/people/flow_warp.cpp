@@ -73,7 +73,10 @@ SpriteFlow sprite_flow(const PlacedSprite& a, const PlacedSprite& b, const std::
   SpriteFlow flow;
   flow.box = joined(box_of(a.sprite, a.placement), box_of(b.sprite, b.placement));
   if (flow.box.empty()) return flow;
-  flow.box.left -= kMargin, flow.box.top -= kMargin, flow.box.right += kMargin, flow.box.bottom += kMargin;
+  const auto margin = [](bool cut_off_a, bool cut_off_b) { return cut_off_a || cut_off_b ? 0 : kMargin; };
+  flow.box.left -= margin(a.cut_off.left, b.cut_off.left), flow.box.top -= margin(a.cut_off.top, b.cut_off.top);
+  flow.box.right += margin(a.cut_off.right, b.cut_off.right);
+  flow.box.bottom += margin(a.cut_off.bottom, b.cut_off.bottom);
   const Planes in_a = planes_of(a, flow.box), in_b = planes_of(b, flow.box);
   FlowOptions options;
   options.spacing = kSpacing;
@@ -90,7 +93,7 @@ Sprite flow_morph(const PlacedSprite& a, const PlacedSprite& b, const SpriteFlow
                   int jobs) {
   if (flow.box.empty()) return {};
   const WarpGrid to_a = warp_along(flow.a_to_b, weight), to_b = warp_along(flow.b_to_a, 1 - weight);
-  return dissolved({a.sprite, a.placement, to_a}, {b.sprite, b.placement, to_b}, dissolve, flow.box, jobs);
+  return dissolved({a, to_a}, {b, to_b}, dissolve, flow.box, jobs);
 }
 
 }  // namespace motex

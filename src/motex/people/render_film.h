@@ -20,8 +20,8 @@ enum class TransitionRenderer { kAuto, kFieldMorph, kFlow, kCrossDissolve, kHard
 /// "auto", "morph", "flow", "dissolve", "cut".
 const char* name_of(TransitionRenderer renderer);
 
-/// Where the feature lines of the morph come from: outline pieces, limbs and fixed edges, or the paper's fixed edges
-/// alone.
+/// Where the feature lines of the morph come from: pieces of the outline and limbs, or the paper's fixed edges of the
+/// bounding box.
 enum class MorphLines { kOutline, kEdges };
 
 struct RenderFilmOptions {
@@ -35,7 +35,7 @@ struct RenderFilmOptions {
     visit(Field{"renderer", "", "how the frames of a transition are made; auto: the one with the least error"},
           self.renderer, Choices{{"auto", "morph", "flow", "dissolve", "cut"}});
     visit(
-        Field{"lines", "", "feature lines of the morph: the outline, limbs and fixed edges, or the fixed edges alone"},
+        Field{"lines", "", "feature lines of the morph: the outline and limbs, or the fixed edges of the bounding box"},
         self.lines, Choices{{"outline", "edges"}});
     visit(Field{"align", "", "put the second take where the first one is, and ease it back"}, self.align, Range{});
     visit(Field{"max_error", "grey levels", "with a larger error of every renderer there is a hard cut"},
@@ -51,8 +51,9 @@ struct CutReport {
   /// Root mean square between the two takes as each renderer brings them together half way (R, G, B, alpha, over the
   /// pixels of either, grey levels); −1: not tried. The last one is without any warp.
   double morph_error = -1, flow_error = -1, dissolve_error = -1;
-  Placement placement;  ///< of the take that is entered, in pixels of the film
-  int num_lines = 0;    ///< of the morph in its middle frame
+  double flow_consistency = 0;  ///< share of the pixels from which flow there and back ends where it began
+  Placement placement;          ///< of the take that is entered, in pixels of the film
+  int num_lines = 0;            ///< of the morph in its middle frame
 };
 
 /// A film, frame by frame and in order; a few frames are in memory at a time.

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "motex/people/feature_lines.h"
+#include "motex/people/flow_warp.h"
 #include "motex/people/render_film.h"
 
 namespace motex {
@@ -27,9 +29,16 @@ class Transition {
   CutReport& report() { return report_; }
 
  private:
+  /// How both sprites of a frame are brought together.
+  struct Way {
+    std::vector<FeatureLinePair> lines;
+    std::optional<SpriteFlow> flow;
+  };
+  PlacedSprite left(const Frame& frame) const;
+  PlacedSprite entered(const Frame& frame) const;
   std::vector<FeatureLinePair> lines_of(const Frame& frame) const;
-  Sprite render_with(TransitionRenderer renderer, const Frame& frame, double weight, double dissolve) const;
-  double error_of(TransitionRenderer renderer) const;
+  Way way_of(const Frame& frame, TransitionRenderer renderer) const;
+  Sprite render_on(const Way& way, const Frame& frame, double weight, double dissolve) const;
   void choose();
 
   const PeopleTexture& texture_;

@@ -23,9 +23,12 @@ constexpr int kRowsPerTask = 32;
 struct Bordered {
   int width = 0, height = 0;  // without the border
   std::size_t stride = 0;
+  CutOffSides cut_off;
   std::vector<std::uint32_t> pixels;
 
-  explicit Bordered(const Sprite& sprite) : width(sprite.width), height(sprite.height) {
+  explicit Bordered(const PlacedSprite& source)
+      : width(source.sprite.width), height(source.sprite.height), cut_off(source.cut_off) {
+    const Sprite& sprite = source.sprite;
     stride = static_cast<std::size_t>(width) + 3;
     pixels.assign(stride * (static_cast<std::size_t>(height) + 3), 0);
     for (int y = 0; y < height; ++y)
@@ -84,11 +87,13 @@ inline void find_places(const GridRow& row, int spacing, int first, int count, i
 
 /// Rounds down without a library call: places are ≥ −1.
 inline void find_squares(const Bordered& sprite, int count, Chunk& chunk) {
-  const auto right = static_cast<float>(sprite.width), bottom = static_cast<float>(sprite.height);
+  const float left = sprite.cut_off.left ? 0.0F : -1.0F, top = sprite.cut_off.top ? 0.0F : -1.0F;
+  const auto right = static_cast<float>(sprite.width - (sprite.cut_off.right ? 1 : 0));
+  const auto bottom = static_cast<float>(sprite.height - (sprite.cut_off.bottom ? 1 : 0));
   const auto stride = static_cast<std::int32_t>(sprite.stride);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const float x = std::min(std::max(chunk.x[i], -1.0F), right) + 1;
-    const float y = std::min(std::max(chunk.y[i], -1.0F), bottom) + 1;
+    const float x = std::min(std::max(chunk.x[i], left), right) + 1;
+    const float y = std::min(std::max(chunk.y[i], top), bottom) + 1;
     const auto ix = static_cast<std::int32_t>(x), iy = static_cast<std::int32_t>(y);
     chunk.fx[i] = x - static_cast<float>(ix);
     chunk.fy[i] = y - static_cast<float>(iy);
@@ -140,10 +145,12 @@ struct Side {
 };
 
 Side side_of(const WarpedSprite& warped) {
-  const double scale = 1 / warped.placement.scale;
-  return {Bordered(warped.sprite),
-          {static_cast<float>(scale), static_cast<float>(-warped.placement.x * scale - warped.sprite.left),
-           static_cast<float>(-warped.placement.y * scale - warped.sprite.top)},
+  const Placement& placement = warped.source.placement;
+  const Sprite& sprite = warped.source.sprite;
+  const double scale = 1 / placement.scale;
+  return {Bordered(warped.source),
+          {static_cast<float>(scale), static_cast<float>(-placement.x * scale - sprite.left),
+           static_cast<float>(-placement.y * scale - sprite.top)},
           warped.warp};
 }
 
@@ -169,6 +176,11 @@ bool covers(const WarpGrid& grid, const BoundingBox& box) {
 }
 
 }  // namespace warp_rows
+
+CutOffSides cut_off_sides(const Sprite& sprite, int width, int height) {
+  if (sprite.empty()) return {};
+  return {sprite.left <= 0, sprite.top <= 0, sprite.left + sprite.width >= width, sprite.top + sprite.height >= height};
+}
 
 bool Placement::is_whole_pixels() const { return scale == 1 && x == std::round(x) && y == std::round(y); }
 

@@ -17,10 +17,18 @@ struct Placement {
   friend bool operator==(const Placement&, const Placement&) = default;
 };
 
+/// Sides on which the frame's edge cuts the actor off; there the sprite's edge pixels go on outwards when it is warped.
+struct CutOffSides {
+  bool left = false, top = false, right = false, bottom = false;
+};
+/// The sides on which the sprite reaches the edge of a frame of that size.
+CutOffSides cut_off_sides(const Sprite& sprite, int width, int height);
+
 /// A sprite and its place in the film.
 struct PlacedSprite {
   const Sprite& sprite;
   Placement placement;
+  CutOffSides cut_off = {};
 };
 
 /// Pixels of the film that the sprite touches; empty for an empty sprite.
@@ -33,8 +41,7 @@ Sprite placed(const Sprite& sprite, const Placement& placement);
 
 /// A sprite warped: pixel p of the film shows the sprite's place of p + u(p).
 struct WarpedSprite {
-  const Sprite& sprite;
-  Placement placement;
+  const PlacedSprite& source;
   const WarpGrid& warp;
 };
 

@@ -17,7 +17,7 @@ TEST(WarpSprites, RefusesAGridThatDoesNotCoverAndAPlacementWithoutSize) {
   const Sprite actor = drawn_actor({});
   const BoundingBox box = box_of(actor);
   const WarpGrid fits = still(box), small(box.left, box.top, 20, 20, 8);
-  EXPECT_THROW(dissolved({actor, {}, fits}, {actor, {}, small}, 0.5, box), InvalidInput);
+  EXPECT_THROW(dissolved({{actor, {}}, fits}, {{actor, {}}, small}, 0.5, box), InvalidInput);
   EXPECT_THROW(placed(actor, {0, 0, 0}), InvalidInput);
   EXPECT_THROW(placed(actor, {1, std::nan(""), 0}), InvalidInput);
 }
@@ -49,9 +49,9 @@ TEST(WarpSprites, WithoutWarpADissolveIsTheWeightedMean) {
   const Sprite a = drawn_actor({}), b = drawn_actor({.x = 104});
   const BoundingBox box = joined(box_of(a), box_of(b));
   const WarpGrid grid = still(box);
-  EXPECT_EQ(sprite_difference(dissolved({a, {}, grid}, {b, {}, grid}, 0, box), a), 0);
-  EXPECT_EQ(sprite_difference(dissolved({a, {}, grid}, {b, {}, grid}, 1, box), b), 0);
-  const Sprite half = dissolved({a, {}, grid}, {b, {}, grid}, 0.5, box);
+  EXPECT_EQ(sprite_difference(dissolved({{a, {}}, grid}, {{b, {}}, grid}, 0, box), a), 0);
+  EXPECT_EQ(sprite_difference(dissolved({{a, {}}, grid}, {{b, {}}, grid}, 1, box), b), 0);
+  const Sprite half = dissolved({{a, {}}, grid}, {{b, {}}, grid}, 0.5, box);
   for (int y = 0; y < half.height; ++y) {
     for (int x = 0; x < half.width; ++x) {
       const auto alpha = [&](const Sprite& s) {
@@ -70,10 +70,31 @@ TEST(WarpSprites, AWarpShowsWhatLiesAtItsDisplacement) {
   WarpGrid grid = still(box);
   for (float& x : grid.x) x = -9;
   for (float& y : grid.y) y = 6;
-  EXPECT_EQ(sprite_difference(dissolved({a, {}, grid}, {a, {}, grid}, 0.3, box), placed(a, {1, 9, -6})), 0);
+  EXPECT_EQ(sprite_difference(dissolved({{a, {}}, grid}, {{a, {}}, grid}, 0.3, box), placed(a, {1, 9, -6})), 0);
   const WarpGrid none = still(box);
-  EXPECT_EQ(sprite_difference(dissolved({a, {1, 9, -6}, none}, {a, {1, 9, -6}, none}, 0, box), placed(a, {1, 9, -6})),
-            0);
+  EXPECT_EQ(
+      sprite_difference(dissolved({{a, {1, 9, -6}}, none}, {{a, {1, 9, -6}}, none}, 0, box), placed(a, {1, 9, -6})), 0);
+}
+
+TEST(WarpSprites, WhereTheFrameCutsTheActorOffHisEdgeGoesOn) {
+  Sprite a = drawn_actor({.ground = 230});  // the frame ends at 200
+  EXPECT_EQ(a.top + a.height, 200);
+  const CutOffSides sides = cut_off_sides(a, 200, 200);
+  EXPECT_TRUE(sides.bottom);
+  EXPECT_FALSE(sides.left || sides.top || sides.right);
+  const BoundingBox box = box_of(a);
+  WarpGrid grid = still(box);
+  for (float& y : grid.y) y = 5;
+  const PlacedSprite cut_off{a, {}, sides}, whole{a, {}};
+  const Sprite goes_on = dissolved({cut_off, grid}, {cut_off, grid}, 0, box);
+  const Sprite ends = dissolved({whole, grid}, {whole, grid}, 0, box);
+  const auto row = [](const Sprite& sprite) {
+    int sum = 0;
+    for (int x = 0; x < sprite.width; ++x) sum += sprite.at(x, sprite.height - 1)[3];
+    return sum;
+  };
+  EXPECT_EQ(row(goes_on), row(a));
+  EXPECT_EQ(row(ends), 0);
 }
 
 }  // namespace
