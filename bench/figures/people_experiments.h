@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -179,8 +180,9 @@ inline void film_and_strip(PeopleClip clip, const std::string& name, double secs
   }
 }
 
-/// people_experiment_1.png … 3.png; the films go to a temporary folder, which is printed.
-inline void draw_experiments(const std::string& clips, const std::filesystem::path& out) {
+/// people_experiment_1.png … 3.png; the films go to a temporary folder, which is printed. A short clip needs more than
+/// four transitions for so long a film.
+inline void draw_experiments(const std::string& clips, const std::filesystem::path& out, const std::set<int>& wanted) {
   const std::filesystem::path films = std::filesystem::temp_directory_path() / "motex_people_films";
   std::filesystem::create_directories(films);
   struct Experiment {
@@ -189,8 +191,9 @@ inline void draw_experiments(const std::string& clips, const std::filesystem::pa
   };
   int number = 0;
   for (const Experiment& one : {Experiment{"darebee_w_640x360.mp4", 75}, Experiment{"dancer1", 35},
-                                Experiment{"mdn_yellowwall_320x192.mp4", 75}}) {
+                                Experiment{"greenscreen_woman_640x360.mp4", 75}}) {
     const std::string name = "people_experiment_" + std::to_string(++number);
+    if (!wanted.empty() && !wanted.contains(100 + number)) continue;
     const bool dancer = std::string(one.clip) == "dancer1";
     film_and_strip(dancer ? load_dancer(clips) : load_keyed(clips + "/" + one.clip), one.clip, one.secs,
                    out / (name + ".png"), films / (name + ".mp4"));
