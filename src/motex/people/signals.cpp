@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string_view>
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
@@ -93,6 +94,8 @@ void smooth(std::vector<double>& values, const FrameSpan& span, double deviation
   }
 }
 
+constexpr std::array<std::string_view, 8> kMotifSignals{"aspect", "area", "centroid_x", "centroid_y",
+                                                        "mu11",   "mu30", "mu21",       "mu03"};
 constexpr double kMotifSmoothSecs = 0.04;
 constexpr double kMovementSecs = 2;
 
@@ -198,7 +201,7 @@ MotifSignals default_motif_signals(const PeopleTexture& texture) {
   MotifSignals out;
   out.stretches = measured.stretches;
   for (Signal& signal : measured.signals) {
-    if (signal.name == "width" || signal.name == "height") continue;  // aspect and area say the same
+    if (std::find(kMotifSignals.begin(), kMotifSignals.end(), signal.name) == kMotifSignals.end()) continue;
     take_out_units(signal, texture, sizes);
     const double weight = weight_of(signal.values, out.stretches, window);
     for (const FrameSpan& span : out.stretches) smooth(signal.values, span, kMotifSmoothSecs * texture.frames_per_sec);

@@ -85,10 +85,10 @@ TEST(MeasureSignals, SmoothingStaysInsideAStretch) {
 
 TEST(DefaultMotifSignals, WhatIsOnlyNoiseIsLeftOut) {
   const MotifSignals found = default_motif_signals(breathing(200));
-  ASSERT_EQ(found.signals.size(), 11U);
+  ASSERT_EQ(found.signals.size(), 8U);
   for (std::size_t k = 0; k < found.signals.size(); ++k) {
     const std::string& name = found.signals[k].name;
-    const bool moves = name != "mu30" && name != "mu21" && name != "mu12" && name != "mu03";
+    const bool moves = name != "mu30" && name != "mu21" && name != "mu03";
     EXPECT_EQ(found.weights[k] > 0, moves) << name;
   }
   EXPECT_EQ(paper_motif_signals(breathing(50)).signals.size(), 1U);
