@@ -46,6 +46,17 @@ Command particles_maps();
 Command particles_simulate_snow();
 Command particles_simulate_birds();
 Command particles_simulate_fireworks();
+Command people_key();
+Command people_signals();
+Command people_learn();
+Command people_info();
+Command people_name();
+Command people_export();
+Command people_crowd();
+Command people_simulate();
+Command people_motifs();
+Command people_direct();
+Command people_play();
 Command doctor();
 
 }  // namespace motex::cli

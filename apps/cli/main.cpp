@@ -57,6 +57,17 @@ CommandTable make_table() {
       particles_simulate_snow(),
       particles_simulate_birds(),
       particles_simulate_fireworks(),
+      people_key(),
+      people_signals(),
+      people_learn(),
+      people_info(),
+      people_name(),
+      people_export(),
+      people_crowd(),
+      people_simulate(),
+      people_motifs(),
+      people_direct(),
+      people_play(),
       doctor(),
   };
   // clang-format on
