@@ -196,7 +196,7 @@ void FilmPlanner::perform(const PerformanceWay& way, int step, int time, double 
   best[key] = {frame, end_time, total, node};
 }
 
-std::vector<FilmState> FilmPlanner::kept(std::map<std::pair<int, int>, FilmState> best) const {
+std::vector<FilmState> FilmPlanner::kept(const std::map<std::pair<int, int>, FilmState>& best) {
   std::vector<FilmState> states;
   states.reserve(best.size());
   for (const auto& [key, state] : best) states.push_back(state);
@@ -213,7 +213,7 @@ std::vector<FilmState> FilmPlanner::begin_with_motif(int motif, int step, const 
     const auto penalty = penalties.find(way.entered);
     perform(way, step, 0, penalty == penalties.end() ? 0 : penalty->second, -1, best);
   }
-  return kept(std::move(best));
+  return kept(best);
 }
 
 std::vector<FilmState> FilmPlanner::go_on_to_motif(const std::vector<FilmState>& from, int motif, int step,
@@ -233,7 +233,7 @@ std::vector<FilmState> FilmPlanner::go_on_to_motif(const std::vector<FilmState>&
     for (const auto& [entry, node] : entered[frame])
       perform(way, step, entry.time, entry.cost + (penalty == penalties.end() ? 0 : penalty->second), node, best);
   }
-  return kept(std::move(best));
+  return kept(best);
 }
 
 std::vector<FilmState> FilmPlanner::go_on_to_frame(const std::vector<FilmState>& from, int frame, int max_wait) {
@@ -329,7 +329,7 @@ std::vector<FilmState> FilmPlanner::stand(const std::vector<IdleStart>& starts, 
     for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) node = append(node, *piece);
     best[{t, 0}] = {t, start.entry.time + num_frames, cost, node};
   }
-  return kept(std::move(best));
+  return kept(best);
 }
 
 std::vector<PerformanceWay> FilmPlanner::find_ways(int motif) const {

@@ -104,7 +104,7 @@ class FilmPlanner {
                                const std::vector<FilmState>& from);
   bool is_idle(int first, int end) const;
   std::vector<PerformanceWay> find_ways(int motif) const;
-  std::vector<FilmState> kept(std::map<std::pair<int, int>, FilmState> best) const;
+  static std::vector<FilmState> kept(const std::map<std::pair<int, int>, FilmState>& best);
 
   const PeopleTexture& texture_;
   const FilmGraph& graph_;
