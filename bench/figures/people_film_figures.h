@@ -206,18 +206,17 @@ inline Drawing lines_figure(const PeopleClip& clip, SpriteSource& source, const 
 /// Figure 8: the head, and the hand that is farther from the middle, large, frame by frame.
 inline Drawing close_up(const Passage& passage) {
   const Outline outline = outline_of({passage.rendered.front().sprite, {}});
-  const auto tip_where = [&](auto better) {
-    OutlinePoint best = outline.points.at(0);
-    for (const int tip : outline.tips)
-      if (better(outline.point(tip), best)) best = outline.point(tip);
-    return best;
+  const auto point_where = [&](auto better) {
+    return *std::max_element(outline.points.begin(), outline.points.end(),
+                             [&](const OutlinePoint& p, const OutlinePoint& q) { return better(q, p); });
   };
   const double middle = (passage.box.left + passage.box.right) / 2.0,
                ground = passage.box.bottom - 0.25 * passage.box.height();
-  const OutlinePoint head = tip_where([](const OutlinePoint& p, const OutlinePoint& q) { return p.y < q.y; });
-  const OutlinePoint hand = tip_where([&](const OutlinePoint& p, const OutlinePoint& q) {
-    return p.y < ground && std::abs(p.x - middle) > (q.y < ground ? std::abs(q.x - middle) : 0);
-  });
+  const OutlinePoint head = point_where([](const OutlinePoint& p, const OutlinePoint& q) { return p.y < q.y; });
+  const double below = head.y + 0.2 * outline.height;
+  const auto reach_of = [&](const OutlinePoint& p) { return p.y > below && p.y < ground ? std::abs(p.x - middle) : 0; };
+  const OutlinePoint hand =
+      point_where([&](const OutlinePoint& p, const OutlinePoint& q) { return reach_of(p) > reach_of(q); });
   std::vector<Drawing> rows;
   for (const bool is_head : {true, false}) {
     const OutlinePoint& at = is_head ? head : hand;
@@ -236,7 +235,7 @@ inline std::pair<Cut, Cut> moving_and_still(const PeopleTexture& texture, const 
   const auto slower = [&](const Cut& a, const Cut& b) { return speed_at(texture, a.from) < speed_at(texture, b.from); };
   std::vector<Cut> best;
   for (const Cut& cut : cuts)
-    if (best.size() < 150 && std::abs(cut.to - cut.from) >= 90) best.push_back(cut);
+    if (best.size() < 40 && std::abs(cut.to - cut.from) >= 90) best.push_back(cut);
   if (best.empty()) throw InvalidInput("no cut leads far enough");
   return {*std::max_element(best.begin(), best.end(), slower), *std::min_element(best.begin(), best.end(), slower)};
 }

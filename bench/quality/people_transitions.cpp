@@ -27,7 +27,7 @@
 namespace motex {
 namespace {
 
-constexpr int kNumCuts = 16;
+constexpr int kNumCuts = 12;
 constexpr int kContext = 20;  // frames of footage around a transition
 constexpr int kTransition = 8;
 

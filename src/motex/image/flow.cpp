@@ -12,7 +12,7 @@
 
 namespace motex {
 
-namespace flow_patches {
+namespace {
 
 constexpr int kPatch = 8;
 constexpr int kBorder = 2 * kPatch;
@@ -233,10 +233,9 @@ void check(const Planes& from, const Planes& to) {
   if (!fits) throw InvalidInput("optical flow needs two pictures of one size with as many planes");
 }
 
-}  // namespace flow_patches
+}  // namespace
 
 WarpGrid optical_flow(const Planes& from, const Planes& to, const FlowOptions& options, const WarpGrid* start) {
-  using namespace flow_patches;
   check(from, to);
   std::vector<Planes> from_levels{from}, to_levels{to};
   const auto halved = [](const Planes& planes) {

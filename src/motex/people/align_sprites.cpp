@@ -11,7 +11,7 @@
 
 namespace motex {
 
-namespace align_levels {
+namespace {
 
 constexpr int kCoarsest = 48;     // pixels: the longer side of the pictures on which the search begins
 constexpr double kSearch = 0.25;  // of the longer side, each way
@@ -164,10 +164,9 @@ double area_of(const Sprite& sprite) {
   return sum;
 }
 
-}  // namespace align_levels
+}  // namespace
 
 SpriteAlignment align_sprites(const Sprite& a, const Sprite& b, const AlignSpritesOptions& options) {
-  using namespace align_levels;
   SpriteAlignment result;
   if (a.empty() || b.empty()) return result;
   Shift shift = search(a, b, options.ground_weight);

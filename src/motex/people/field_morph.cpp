@@ -9,7 +9,7 @@
 
 namespace motex {
 
-namespace field_rows {
+namespace {
 
 /// One pair of lines ready for use: X' − X = (m X + t), which is affine, and what the distance needs.
 struct LineField {
@@ -87,7 +87,7 @@ MOTEX_WIDE void fill_row(const std::vector<LineField>& lines, float left, float 
   }
 }
 
-}  // namespace field_rows
+}  // namespace
 
 double FeatureLine::length() const { return std::hypot(qx - px, qy - py); }
 
@@ -102,7 +102,6 @@ FeatureLine moved(const FeatureLine& line, double dx, double dy) {
 
 WarpGrid field_warp(const std::vector<FeatureLine>& shown, const std::vector<FeatureLine>& source,
                     const BoundingBox& box, const FieldMorphOptions& options) {
-  using namespace field_rows;
   WarpGrid grid(box.left, box.top, box.width(), box.height(), options.spacing);
   // Relative to the box: single precision then has plenty of digits.
   std::vector<FeatureLine> near_shown, near_source;
@@ -120,9 +119,9 @@ WarpGrid field_warp(const std::vector<FeatureLine>& shown, const std::vector<Fea
 
 WarpGrid::Displacement field_displacement(const std::vector<FeatureLine>& shown, const std::vector<FeatureLine>& source,
                                           double x, double y, const FieldMorphOptions& options) {
-  field_rows::RowSums<double> sums;
-  for (const field_rows::LineField& line : field_rows::line_fields(shown, source, options))
-    field_rows::add_line(line, x, y, options.softness * options.softness, sums);
+  RowSums<double> sums;
+  for (const LineField& line : line_fields(shown, source, options))
+    add_line(line, x, y, options.softness * options.softness, sums);
   if (sums.weight == 0) return {};
   return {sums.x / sums.weight, sums.y / sums.weight};
 }

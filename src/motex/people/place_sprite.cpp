@@ -10,7 +10,7 @@
 
 namespace motex {
 
-namespace cubic_rows {
+namespace {
 
 /// Four neighbours of a place along a side, with their weights.
 struct Taps {
@@ -65,10 +65,9 @@ void round_row(const std::vector<float>& row, PremultipliedRgba* out) {
   }
 }
 
-}  // namespace cubic_rows
+}  // namespace
 
 Sprite placed(const Sprite& sprite, const Placement& placement) {
-  using namespace cubic_rows;
   if (!(placement.scale > 0.01 && placement.scale < 100) || !(std::abs(placement.x) < 1e6) ||
       !(std::abs(placement.y) < 1e6))
     throw InvalidInput("a sprite can be scaled by 0.01 to 100 and moved by a million pixels");

@@ -14,7 +14,7 @@
 
 namespace motex {
 
-namespace warp_rows {
+namespace {
 
 constexpr int kChunk = 64;  // pixels worked on at a time
 constexpr int kRowsPerTask = 32;
@@ -175,7 +175,7 @@ bool covers(const WarpGrid& grid, const BoundingBox& box) {
          (grid.columns - 1) * grid.spacing >= box.width() - 1 && (grid.rows - 1) * grid.spacing >= box.height() - 1;
 }
 
-}  // namespace warp_rows
+}  // namespace
 
 CutOffSides cut_off_sides(const Sprite& sprite, int width, int height) {
   if (sprite.empty()) return {};
@@ -200,7 +200,6 @@ BoundingBox joined(const BoundingBox& a, const BoundingBox& b) {
 }
 
 Sprite dissolved(const WarpedSprite& a, const WarpedSprite& b, double weight, const BoundingBox& box, int jobs) {
-  using namespace warp_rows;
   if (box.empty()) return {};
   if (!covers(a.warp, box) || !covers(b.warp, box) || a.warp.spacing != b.warp.spacing)
     throw InvalidInput("the grids of a dissolve must cover the rectangle that is drawn");
