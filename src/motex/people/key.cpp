@@ -21,6 +21,8 @@ namespace {
 constexpr int kRimDepth = 2;    // squares up to this depth are unmixed
 constexpr int kSpillDepth = 5;  // and up to this one cleared of spill
 
+constexpr float kLeastNear = 0.5F;  // weight of the colours near by: about one square that is not at the very rim
+
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
 
 LevelTriple mean_of(const std::array<float, 4>& sum) {
@@ -68,7 +70,7 @@ Keyer::State::Square Keyer::State::square_at(int column, int row) const {
   square.fronts.known = around[3] > 0;
   if (square.fronts.known) {
     square.fronts.around = mean_of(around);
-    square.fronts.near = near[3] > 0 ? mean_of(near) : square.fronts.around;
+    square.fronts.near = near[3] > kLeastNear ? mean_of(near) : square.fronts.around;
   }
   const std::size_t cell =
       static_cast<std::size_t>(row / MatteGrid::kCell) * static_cast<std::size_t>(grid.cells_across) +
@@ -91,8 +93,11 @@ PremultipliedRgba Keyer::State::pixel_of(const Rgba& pixel, const Rgba& plate, c
   LevelTriple colour{};
   for (std::size_t c = 0; c < 3; ++c) colour[c] = std::clamp((level[c] - (1 - alpha) * back[c]) / alpha, 0.0F, 255.0F);
   if (square.deep_known) {
-    const float share =
-        static_cast<float>(shared->options.spill) * spill_share(colour, square.deep, back, shared->screen_channel);
+    float share = spill_share(colour, square.deep, back, shared->screen_channel);
+    // More than light can do at the rim is the background itself: the blur of a lens, a codec's coarse colours.
+    const bool at_rim = square.depth <= kRimDepth;
+    if (at_rim && share > kMostSpill) alpha *= (1 - share) / (1 - kMostSpill);
+    share = static_cast<float>(shared->options.spill) * (at_rim ? share : std::min(share, kMostSpill));
     for (std::size_t c = 0; c < 3 && share > 0; ++c)
       colour[c] = std::clamp((colour[c] - share * back[c]) / (1 - share), 0.0F, 255.0F);
   }

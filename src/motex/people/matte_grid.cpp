@@ -113,12 +113,12 @@ void widen(const std::vector<std::uint8_t>& from, int width, int top, int bottom
   }
 }
 
-/// Mean of the values from `limit` on; 0 without any.
+/// Mean of the values from `limit` on, of every eighth; 0 without any.
 float mean_from(const std::vector<float>& values, float limit) {
   float sum = 0;
   int count = 0;
-  for (const float value : values)
-    if (value >= limit) sum += std::min(value, 1e5F), ++count;
+  for (std::size_t i = 3; i < values.size(); i += 8)
+    if (values[i] >= limit) sum += std::min(values[i], 1e5F), ++count;
   return count == 0 ? 0 : sum / static_cast<float>(count);
 }
 
@@ -127,7 +127,8 @@ void grow(const MatteGridLimits& limits, MatteGrid& grid) {
   const std::size_t count = grid.differences.size();
   std::vector<std::uint8_t>& actor = grid.actor.pixels;
   const float certain = kCertain * static_cast<float>(limits.difference);
-  const float limit = std::max(static_cast<float>(limits.difference), kTrace * mean_from(grid.differences, certain));
+  grid.contrast = mean_from(grid.differences, certain);
+  const float limit = std::max(static_cast<float>(limits.difference), kTrace * grid.contrast);
   mark_from(grid.differences.data(), count, kCertain * limit, actor.data());
   mark_from(grid.differences.data(), count, limit, grid.level.data());
   for (int step = 0; step < kGrowth; ++step) {
@@ -214,6 +215,7 @@ void carry_colours(MatteGrid& grid) {
   constexpr std::array<float, MatteGrid::kInside + 1> kDeepWeights{0, 1e-5F, 1e-4F, 0.003F, 0.05F, 0.3F, 1};
   constexpr int kCell = MatteGrid::kCell;
   const BoundingBox box = grid.rim_box();
+  const float full = 1 / std::max(1.0F, grid.contrast);
   grid.cells_across = (grid.width() + kCell - 1) / kCell;
   std::fill(grid.cells.begin(), grid.cells.end(), Weighted{});
   const std::uint16_t *red = grid.sums.channels[0].data(), *green = grid.sums.channels[1].data(),
@@ -228,8 +230,10 @@ void carry_colours(MatteGrid& grid) {
       if (depth == 0) continue;
       const Weighted colour{static_cast<float>(red[i]), static_cast<float>(green[i]), static_cast<float>(blue[i]), 4};
       Weighted& cell = cells[x / kCell];
+      // Where little of the actor is in a square at the rim, it says little about his colour.
+      const float pure = depth > 2 ? 1 : std::min(1.0F, grid.differences[i] * full);
       for (std::size_t c = 0; c < 4; ++c) {
-        out[c] = kWeights[depth] * colour[c];
+        out[c] = pure * pure * kWeights[depth] * colour[c];
         cell[c] += kDeepWeights[depth] * colour[c];
       }
     }

@@ -37,6 +37,7 @@ struct MatteGrid {
   SquareSums sums;                 ///< of the frame
   std::array<float, 3> gains{};    ///< of R, G, B: light of the frame / light of the plate where the background is seen
   std::vector<float> differences;  ///< |ΔI|² / variance: 2 on average where the background is seen
+  float contrast = 0;              ///< mean difference of the squares that show the actor for sure
   Mask actor;                      ///< squares that show some of the actor
   BoundingBox box;                 ///< of these
   std::vector<std::uint8_t> depths;  ///< 0 = none; squares to the nearest one without the actor, up to kInside

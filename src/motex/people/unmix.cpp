@@ -8,7 +8,7 @@
 namespace motex {
 namespace {
 
-constexpr float kMostSpill = 0.4F;
+constexpr float kAll = 0.95F;
 constexpr float kSameMaterial = 14;  // grey levels off the line
 
 float excess(const LevelTriple& colour, std::size_t channel) {
@@ -26,7 +26,7 @@ float spill_share(const LevelTriple& colour, const LevelTriple& inner, const Lev
   }
   if (length < 400) return 0;
   const float projected = along / length;
-  if (square - along * projected < kSameMaterial * kSameMaterial) return std::clamp(projected, 0.0F, kMostSpill);
+  if (square - along * projected < kSameMaterial * kSameMaterial) return std::clamp(projected, 0.0F, kAll);
   if (screen_channel < 0) return 0;
   const auto channel = static_cast<std::size_t>(screen_channel);
   const float allowed = std::max(0.0F, excess(inner, channel)), much = excess(screen, channel);

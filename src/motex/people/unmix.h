@@ -23,7 +23,7 @@ struct FrontColours {
 /// far from B and not at the very rim it is another material and opaque. noise: deviation of a channel.
 inline float unmixed_alpha(const LevelTriple& pixel, const LevelTriple& back, const FrontColours& fronts, float noise,
                            int inside) {
-  constexpr float kSpilled = 0.96F, kDeadBand = 2, kOffLine = 5, kContrast = 0.25F;
+  constexpr float kSpilled = 0.96F, kDeadBand = 2, kOffLine = 5, kBend = 0.1F, kContrast = 0.3F;
   const float dr = pixel[0] - back[0], dg = pixel[1] - back[1], db = pixel[2] - back[2];
   const float difference = dr * dr + dg * dg + db * db;
   float best_along = 0, best_length = 0, best_rest = -1;
@@ -36,17 +36,21 @@ inline float unmixed_alpha(const LevelTriple& pixel, const LevelTriple& back, co
     best_along = along, best_length = length, best_rest = rest;
   }
   if (best_rest < 0) return inside > 0 ? 1.0F : 0.0F;
-  const float limit = kOffLine * noise;
-  if (inside > 1 && best_rest > limit * limit && difference > kContrast * kContrast * best_length) return 1;
+  const float limit = kOffLine * kOffLine * noise * noise + kBend * kBend * best_length;
+  if (inside > 1 && best_rest > limit && difference > kContrast * kContrast * best_length) return 1;
   const float alpha = best_along / (kSpilled * best_length);
   const float band = std::min(0.25F, kDeadBand * noise / std::sqrt(best_length));
   if (alpha < band) return 0;
   return alpha > 1 - band ? 1 : alpha;
 }
 
+/// Most that the screen's light takes of a colour of the actor; what is more green is partly transparent.
+constexpr float kMostSpill = 0.2F;
+
 /// Share s of the screen's light in a colour F = (1 − s) F₀ + s B of the actor, F₀ his colour further inside: the
 /// projection of F − F₀ on B − F₀ where F lies near that line; else what `excess` of B's leading channel over the other
-/// two F has beyond F₀'s and beyond 0, so that green clothes stay green. 0 … 0.4.
+/// two F has beyond F₀'s and beyond 0, so that green clothes stay green, at most
+/// kMostSpill. 0 … 0.95.
 float spill_share(const LevelTriple& colour, const LevelTriple& inner, const LevelTriple& screen, int screen_channel);
 
 }  // namespace motex
