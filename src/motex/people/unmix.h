@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,7 +32,7 @@ inline float unmixed_alpha(const LevelTriple& pixel, const LevelTriple& back, co
     const float fr = (*front)[0] - back[0], fg = (*front)[1] - back[1], fb = (*front)[2] - back[2];
     const float length = fr * fr + fg * fg + fb * fb, along = dr * fr + dg * fg + db * fb;
     if (length < 9 * noise * noise) continue;
-    const float rest = difference - along * along / length;
+    const float rest = std::max(0.0F, difference - along * along / length);
     if (best_rest >= 0 && rest >= best_rest) continue;
     best_along = along, best_length = length, best_rest = rest;
   }

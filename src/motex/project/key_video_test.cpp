@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/project/key_video.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "motex/core/error.h"
+#include "motex/video_io/video_writer.h"
+
+namespace motex {
+namespace {
+
+namespace fs = std::filesystem;
+
+class KeyVideo : public testing::Test {
+ protected:
+  KeyVideo() : folder_(fs::temp_directory_path() / ("motex_key_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~KeyVideo() override {
+    std::error_code ec;
+    fs::remove_all(folder_, ec);
+  }
+
+  /// A red block before green; odd sides; nobody when there is no block.
+  fs::path write_clip(const std::string& name, int count, bool block = true) const {
+    VideoWriter writer(folder_ / name, 95, 71);
+    for (int t = 0; t < count; ++t) {
+      Image image(95, 71, {40, 180, 60, 255});
+      const int left = 35 + static_cast<int>(18 * std::sin(0.6 * t));
+      for (int y = 20; block && y < 60; ++y)
+        for (int x = left; x < left + 20; ++x) image.at(x, y) = {180, 40, 60, 255};
+      writer.write(image);
+    }
+    writer.finish();
+    return folder_ / name;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(KeyVideo, WritesAlphaAndACompositeTogether) {
+  const fs::path clip = write_clip("take.mkv", 20), keyed = folder_ / "keyed.mkv";
+  const KeyVideoReport report = key_video(clip, {}, nullptr, {keyed});
+  EXPECT_EQ(report.footage.num_frames, 20);
+  EXPECT_EQ(report.plate->kind, ScreenKind::kGreen);
+  VideoReader reader(keyed);
+  VideoFrame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_EQ(frame.image.at(45, 40), (Rgba{180, 40, 60, 255}));
+  EXPECT_EQ(frame.image.at(5, 5).a, 0);
+  EXPECT_EQ(frame.image.at(32, 40).a, 0);
+  EXPECT_GT(frame.image.at(32, 40).r, 100) << "colours go on beyond the outline";
+
+  Backdrop backdrop({0, 0, 255, 255}, 95, 71);
+  key_video(clip, {}, &backdrop, {folder_ / "shown.mkv"});
+  VideoReader shown(folder_ / "shown.mkv");
+  ASSERT_TRUE(shown.next(frame));
+  EXPECT_EQ(frame.image.at(5, 5), (Rgba{0, 0, 255, 255}));
+  EXPECT_EQ(frame.image.at(45, 40), (Rgba{180, 40, 60, 255}));
+}
+
+TEST_F(KeyVideo, FootageWithAlphaIsTakenAsItIs) {
+  const fs::path keyed = folder_ / "keyed.mkv", again = folder_ / "again.mkv";
+  key_video(write_clip("take.mkv", 12), {}, nullptr, {keyed});
+  EXPECT_TRUE(key_video(keyed, {}, nullptr, {again}).had_alpha);
+}
+
+TEST_F(KeyVideo, NobodyIsAnErrorAndNothingIsWritten) {
+  EXPECT_THROW(key_video(write_clip("empty.mkv", 12, false), {}, nullptr, {folder_ / "keyed.mkv"}), InvalidInput);
+  EXPECT_FALSE(fs::exists(folder_ / "keyed.mkv"));
+}
+
+TEST_F(KeyVideo, ThreeFramesBeforeAScreenAreEnough) {
+  EXPECT_EQ(key_video(write_clip("three.mkv", 3), {}, nullptr, {folder_ / "keyed.mkv"}).footage.num_frames, 3);
+}
+
+TEST_F(KeyVideo, TheNumberOfThreadsDoesNotMatter) {
+  const fs::path clip = write_clip("take.mkv", 12);
+  JobContext one, three;
+  one.jobs = 1, three.jobs = 3;
+  KeyedFootage a(clip, {}, one), b(clip, {}, three);
+  for (KeyedFrame x, y; a.next(x) && b.next(y);) EXPECT_EQ(x.sprite.pixels, y.sprite.pixels);
+}
+
+TEST(Backdrop, IsCutToTheShapeOfTheFrame) {
+  Image picture(40, 10, {0, 0, 0, 255});
+  for (int y = 0; y < 10; ++y)
+    for (int x = 15; x < 25; ++x) picture.at(x, y) = {250, 250, 250, 255};
+  const Image cut = fitted(picture, 20, 20);
+  EXPECT_EQ(cut.width, 20);
+  EXPECT_EQ(cut.at(0, 0).r, 250);
+  EXPECT_EQ(cut.at(19, 19).r, 250);
+}
+
+}  // namespace
+}  // namespace motex
