@@ -12,6 +12,7 @@
 
 #include "bench/figures/people_experiments.h"
 #include "bench/figures/people_film_figures.h"
+#include "bench/figures/people_motif_figures.h"
 
 int main(int argc, char** argv) {
   try {
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
     };
     std::filesystem::create_directories(folder);
     const std::string clips = data + "/people";
+    if (wants(1, 4)) motex::bench::draw_motif_figures(clips, folder);
     if (wants(5, 8)) motex::bench::draw_transition_figures(clips, folder);
     if (wants(101, 103)) motex::bench::draw_experiments(clips, folder, wanted);
     return 0;

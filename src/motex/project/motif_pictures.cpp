@@ -199,4 +199,10 @@ Drawing draw_alphabet(const PeopleTexture& texture, FramePictures& pictures) {
   return grid(cards, static_cast<int>(std::min<std::size_t>(6, cards.size())), "");
 }
 
+Drawing draw_motif_page(const PeopleTexture& texture, FramePictures& pictures) {
+  return stacked({heading("Actions"), draw_alphabet(texture, pictures), heading("Two performances of each"),
+                  draw_motif_matches(texture), draw_filmstrips(texture, pictures)},
+                 12);
+}
+
 }  // namespace motex

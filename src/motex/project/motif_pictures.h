@@ -30,4 +30,7 @@ Drawing draw_filmstrips(const PeopleTexture& texture, FramePictures& pictures, i
 /// The action alphabet: letter, name, how often, length, and the frame in the middle of the exemplar of every motif.
 Drawing draw_alphabet(const PeopleTexture& texture, FramePictures& pictures);
 
+/// Alphabet, Figure 3 and Figure 4, one below the other.
+Drawing draw_motif_page(const PeopleTexture& texture, FramePictures& pictures);
+
 }  // namespace motex
