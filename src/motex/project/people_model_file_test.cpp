@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "motex/core/archive.h"
 #include "motex/core/error.h"
@@ -154,6 +155,21 @@ TEST(PeopleModelFile, AnyOrderGivesTheSamePicturesAndMirroredTakesAreMirrored) {
   EXPECT_EQ(all[kFrames + 12]->left, turned.left);
   EXPECT_TRUE(all[7]->empty());
   EXPECT_THROW(rising.sprite(2 * kFrames), InvalidInput);
+}
+
+TEST(PeopleModelFile, OldFilesAreRead) {
+  const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/people_texture_v1.motex";
+  const PeopleModel model = load_people_model(path);
+  ASSERT_EQ(model.texture.takes.size(), 2U);
+  EXPECT_EQ(model.texture.num_frames(), 180);
+  EXPECT_EQ(model.texture.width, 64);
+  EXPECT_EQ(model.originals, (std::vector<int>{0, 0}));
+  StoredFootage stored(model);
+  for (const int t : {0, 89, 90, 150}) {
+    const Silhouette now = measure_silhouette(*stored.sprite(t)), then = model.texture.silhouettes[t];
+    EXPECT_NEAR(now.area / then.area, 1, 0.05) << t;
+    EXPECT_NEAR(now.centroid_x, then.centroid_x, 0.5) << t;
+  }
 }
 
 }  // namespace
