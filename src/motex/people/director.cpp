@@ -13,10 +13,10 @@
 namespace motex {
 namespace {
 
-constexpr double kWindowSecs = 1;     // in which a cut is looked for
+constexpr double kWindowSecs = 2;     // in which a cut is looked for
 constexpr double kTemperature = 0.5;  // of the choice among cuts, in units of cost_of_cut()
-constexpr double kForgetSecs = 15;    // after which frames may well be shown again
-constexpr double kShownLately = 5;    // what it costs to show them at once again
+constexpr double kForgetSecs = 10;    // after which frames may well be shown again
+constexpr double kShownLately = 4;    // what it costs to show them at once again
 constexpr double kDiscount = 0.995;
 constexpr double kTrim = 0.1;  // of an occurrence that may be missing at each end
 

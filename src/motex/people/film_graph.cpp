@@ -57,7 +57,7 @@ double FilmGraph::endless_share() const {
 }
 
 double cost_of_cut(const Cut& cut, double natural_difference) {
-  const double difference = cut.difference / std::max(natural_difference, 0.5);
+  const double difference = cut.difference / std::max(natural_difference / 2, 8.0);
   return 1 + difference * difference + cut.smoothness * cut.smoothness;
 }
 

@@ -50,8 +50,9 @@ class FilmGraph {
   std::vector<double> future_cost_;
 };
 
-/// 1 + (difference / natural_difference)² + smoothness²: 1 for being a cut at all, as much again for pictures that
-/// differ as quick movement does, and for a jolt as in the most sudden twentieth of the footage.
+/// 1 + (difference / d)² + smoothness², d = half the natural difference, 8 grey levels at least: 1 for being a cut at
+/// all, as much again for pictures that differ as movement does, and for a jolt as in the most sudden twentieth of the
+/// footage.
 double cost_of_cut(const Cut& cut, double natural_difference);
 
 }  // namespace motex
