@@ -183,6 +183,95 @@ class Tracks(CommandTest):
         self.succeed("particles", "tracks", self.model, "-o", over, "--video", self.video)
         self.assertNotEqual(over.read_bytes(), video.read_bytes())
 
+    def test_trackmate_has_all_that_its_reader_asks_for(self):
+        """The rules of TrackMate's own reader (fiji.plugin.trackmate.io.TmXmlReader): what it takes without a default, as
+        which type, which elements it would stop at, which names it must find again elsewhere in the file."""
+        path = self.folder / "t.xml"
+        self.succeed("particles", "tracks", self.model, "-o", path)
+        root = ElementTree.parse(path).getroot()
+        whole, real = r"-?\d+", r"-?\d+(\.\d+)?([eE][-+]?\d+)?"
+
+        def attributes(element, pattern, *names):
+            for name in names:
+                self.assertRegex(element.get(name) or "", f"^{pattern}$", f"{element.tag} {name}")
+
+        def the(name, parent=root):
+            (element,) = parent.findall(name)
+            return element
+
+        self.assertEqual(root.tag, "TrackMate")
+        attributes(root, r"\d+\.\d+\.\d+", "version")
+        attributes(the("GUIState"), "ConfigureViews", "state")
+        model, settings = the("Model"), the("Settings")
+        attributes(model, ".+", "spatialunits", "timeunits")
+
+        dimensions = ("NONE|QUALITY|COST|INTENSITY|INTENSITY_SQUARED|POSITION|VELOCITY|LENGTH|AREA|VOLUME|TIME|ANGLE|RATE|"
+                      "ANGLE_RATE|STRING")
+        declared = {}
+        for kind in ("SpotFeatures", "EdgeFeatures", "TrackFeatures"):
+            for feature in the("FeatureDeclarations/" + kind, model).findall("Feature"):
+                attributes(feature, ".+", "feature", "name", "shortname")
+                attributes(feature, f"({dimensions})", "dimension")
+                attributes(feature, "(true|false)", "isint")
+                declared.setdefault(kind, {})[feature.get("feature")] = feature.get("isint") == "true"
+
+        def features(element, kind, *others):
+            for name, value in element.attrib.items():
+                if name in others:
+                    continue
+                self.assertIn(name, declared[kind], element.tag)
+                self.assertRegex(value, f"^{whole if declared[kind][name] else real}$", f"{element.tag} {name}")
+
+        spots = {}
+        for frame in the("AllSpots", model).findall("SpotsInFrame"):
+            attributes(frame, whole, "frame")
+            for spot in frame.findall("Spot"):
+                attributes(spot, whole, "ID")
+                attributes(spot, real, "QUALITY", "POSITION_X", "POSITION_Y", "POSITION_Z", "POSITION_T", "FRAME", "RADIUS",
+                           "VISIBILITY")
+                features(spot, "SpotFeatures", "ID", "name")
+                self.assertEqual(spot.get("FRAME"), frame.get("frame"))
+                self.assertNotIn(spot.get("ID"), spots)
+                self.assertLess(int(spot.get("ID")), 2**31)
+                spots[spot.get("ID")] = spot
+        self.assertEqual(the("AllSpots", model).get("nspots"), str(len(spots)))
+
+        tracks, edges = set(), set()
+        for track in the("AllTracks", model).findall("Track"):
+            attributes(track, whole, "TRACK_ID", "TRACK_INDEX")
+            features(track, "TrackFeatures", "name")
+            self.assertNotIn(track.get("TRACK_ID"), tracks)
+            tracks.add(track.get("TRACK_ID"))
+            self.assertTrue(track.findall("Edge"))
+            for edge in track.findall("Edge"):
+                features(edge, "EdgeFeatures")
+                ends = (edge.get("SPOT_SOURCE_ID"), edge.get("SPOT_TARGET_ID"))
+                self.assertTrue(set(ends) <= set(spots) and ends[0] != ends[1])
+                self.assertLess(int(spots[ends[0]].get("FRAME")), int(spots[ends[1]].get("FRAME")))
+                self.assertNotIn(frozenset(ends), edges)
+                edges.add(frozenset(ends))
+        self.assertTrue(tracks)
+        shown = [one.get("TRACK_ID") for one in the("FilteredTracks", model).findall("TrackID")]
+        self.assertEqual(set(shown), tracks)
+
+        image = the("ImageData", settings)
+        attributes(image, ".+", "filename", "folder")
+        attributes(image, whole, "width", "height", "nslices", "nframes")
+        attributes(image, real, "pixelwidth", "pixelheight", "voxeldepth", "timeinterval")
+        crop = the("BasicSettings", settings)
+        attributes(crop, whole, *(axis + end for axis in "xyzt" for end in ("start", "end")))
+        attributes(the("DetectorSettings", settings), "MANUAL_DETECTOR", "DETECTOR_NAME")
+        attributes(the("DetectorSettings", settings), real, "RADIUS")
+        attributes(the("TrackerSettings", settings), "MANUAL_TRACKER", "TRACKER_NAME")
+        first = the("InitialSpotFilter", settings)
+        attributes(first, "QUALITY", "feature")
+        attributes(first, real, "value")
+        attributes(first, "(true|false)", "isabove")
+        for name in ("SpotFilterCollection", "TrackFilterCollection"):
+            self.assertEqual(len(the(name, settings)), 0)
+        for name in ("SpotAnalyzers", "EdgeAnalyzers", "TrackAnalyzers"):
+            the("AnalyzerCollection/" + name, settings)
+
     def test_units(self):
         plain, physical = self.folder / "a.csv", self.folder / "b.csv"
         self.succeed("particles", "tracks", self.model, "-o", plain)
