@@ -69,5 +69,22 @@ class SameParticles(MadeTwice, CommandTest):
         self.assert_same(self.made("first"), self.made("second", jobs=2))
 
 
+class SamePeople(MadeTwice, CommandTest):
+    def made(self, name, binary=MOTEX, jobs=1, seed=5):
+        """Bytes of a scene, of the actor learned from it and of a film with its cuts."""
+        folder = self.folder / name
+        folder.mkdir()
+        common = ("--seed", seed, "--jobs", jobs)
+        scene = ("--size", "240x160", "--frames", 300, "--actions", "left_kick,right_kick", "--repetitions", 2)
+        self.succeed("people", "simulate", "-o", folder / "actor", *scene, *common, "--lossless", binary=binary)
+        self.succeed("people", "learn", "actor/scene.mkv", "-o", "actor.motex", *common[2:], binary=binary, cwd=folder)
+        arguments = ("-o", folder / "film.mkv", "--edits", folder / "film.json", "--frames", 90, *common)
+        self.succeed("people", "play", folder / "actor.motex", *arguments, binary=binary)
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+    def test_with_two_threads(self):
+        self.assert_same(self.made("first"), self.made("second", jobs=2))
+
+
 if __name__ == "__main__":
     unittest.main()
