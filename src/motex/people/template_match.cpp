@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/people/template_match.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace motex {
+namespace {
+
+constexpr double kSlowest = 1.22, kFastest = 0.82;  // only to see that a match at the tempo before is the best
+constexpr std::array<double, 9> kTempos{1.0, 0.95, 1.05, 0.9, 1.1, 0.86, 1.16, kFastest, kSlowest};
+constexpr double kApart = 0.6;
+constexpr double kRival = 0.2;
+constexpr double kFlat = 1e-10;
+
+void normalise(Pattern& pattern) {
+  for (Index s = 0; s < pattern.cols(); ++s) {
+    const double mean = pattern.col(s).mean();
+    pattern.col(s).array() -= mean;
+    const double norm = pattern.col(s).norm();
+    if (norm > kFlat * std::abs(mean))
+      pattern.col(s) /= norm;
+    else
+      pattern.col(s).setZero();
+  }
+}
+
+}  // namespace
+
+Pattern stretched(const Pattern& pattern, int rows) {
+  Pattern out(rows, pattern.cols());
+  const double step = rows > 1 ? static_cast<double>(pattern.rows() - 1) / (rows - 1) : 0;
+  for (int t = 0; t < rows; ++t) {
+    const double at = t * step;
+    const Index low = std::min<Index>(static_cast<Index>(at), std::max<Index>(0, pattern.rows() - 2));
+    const double part = at - static_cast<double>(low);
+    out.row(t) = (1 - part) * pattern.row(low) + part * pattern.row(std::min(low + 1, pattern.rows() - 1));
+  }
+  normalise(out);
+  return out;
+}
+
+PatternSearch::PatternSearch(const FrameMatrix& series, const std::vector<FrameSpan>& stretches,
+                             std::vector<double> scale)
+    : num_frames_(static_cast<int>(series.rows())),
+      num_signals_(static_cast<int>(series.cols())),
+      scale_(std::move(scale)) {
+  const auto size = static_cast<std::size_t>(num_frames_);
+  run_end_.assign(size, 0);
+  std::vector<FrameSpan> parts = stretches;
+  if (parts.empty()) parts.push_back({0, num_frames_});
+  for (const FrameSpan& part : parts) {
+    int end = part.end();
+    for (int frame = part.end() - 1; frame >= part.start; --frame) {
+      if (!series.row(frame).allFinite()) end = frame;
+      run_end_[static_cast<std::size_t>(frame)] = end;
+    }
+  }
+  for (int s = 0; s < num_signals_; ++s) {
+    std::vector<double> x(size), sums(size + 1, 0), squares(size + 1, 0);
+    double mean = 0, count = 0;
+    for (int t = 0; t < num_frames_; ++t)
+      if (std::isfinite(series(t, s))) {
+        mean += series(t, s);
+        count += 1;
+      }
+    mean = count > 0 ? mean / count : 0;
+    for (std::size_t t = 0; t < size; ++t) {
+      const double value = series(static_cast<Index>(t), s);
+      x[t] = std::isfinite(value) ? value - mean : 0;
+      sums[t + 1] = sums[t] + x[t];
+      squares[t + 1] = squares[t] + x[t] * x[t];
+    }
+    values_.push_back(std::move(x));
+    sums_.push_back(std::move(sums));
+    squares_.push_back(std::move(squares));
+  }
+}
+
+bool PatternSearch::whole(int start, int length) const {
+  return start >= 0 && start + length <= num_frames_ && start + length <= run_end_[static_cast<std::size_t>(start)];
+}
+
+double PatternSearch::deviation(int s, int start, int length) const {
+  const auto k = static_cast<std::size_t>(s), a = static_cast<std::size_t>(start),
+             b = static_cast<std::size_t>(start + length);
+  const double mean = (sums_[k][b] - sums_[k][a]) / length;
+  const double square = (squares_[k][b] - squares_[k][a]) / length;
+  const double variance = square - mean * mean;
+  return variance > kFlat * square ? std::sqrt(variance) : 0;
+}
+
+double PatternSearch::amplitude(int start, int length) const {
+  double sum = 0;
+  for (int s = 0; s < num_signals_; ++s) {
+    const double scale = scale_[static_cast<std::size_t>(s)];
+    if (scale <= 0) continue;
+    const double ratio = deviation(s, start, length) / scale;
+    sum += ratio * ratio;
+  }
+  return std::sqrt(sum / num_signals_);
+}
+
+Pattern PatternSearch::pattern(int start, int length, int rows) const {
+  Pattern window(length, num_signals_);
+  for (int s = 0; s < num_signals_; ++s)
+    for (int t = 0; t < length; ++t)
+      window(t, s) = values_[static_cast<std::size_t>(s)][static_cast<std::size_t>(start + t)];
+  return stretched(window, rows);
+}
+
+void PatternSearch::correlate(const Pattern& pattern, std::vector<double>& out) const {
+  const int m = static_cast<int>(pattern.rows()), num_windows = num_frames_ - m + 1;
+  constexpr int kBlock = 256;
+  std::array<double, kBlock> dots{};
+  const double root = std::sqrt(static_cast<double>(m));
+  for (int first = 0; first < num_windows; first += kBlock) {
+    const int count = std::min(kBlock, num_windows - first);
+    double* sum = out.data() + first;
+    std::fill_n(sum, count, 0.0);
+    for (int s = 0; s < num_signals_; ++s) {
+      dots.fill(0);
+      const double* x = values_[static_cast<std::size_t>(s)].data() + first;
+      for (int t = 0; t < m; ++t) {
+        const double weight = pattern(t, s);
+        for (int i = 0; i < count; ++i) dots[static_cast<std::size_t>(i)] += weight * x[i + t];
+      }
+      for (int i = 0; i < count; ++i) {
+        const double norm = deviation(s, first + i, m) * root;
+        if (norm > 0) sum[i] += dots[static_cast<std::size_t>(i)] / norm;
+      }
+    }
+    for (int i = 0; i < count; ++i) sum[i] = whole(first + i, m) ? sum[i] / num_signals_ : -1;
+  }
+}
+
+std::vector<Match> PatternSearch::matches(const Pattern& pattern, double least) const {
+  const int m = static_cast<int>(pattern.rows());
+  std::vector<Match> best(static_cast<std::size_t>(num_frames_));  // by the middle of the window
+  std::vector<double> correlation(static_cast<std::size_t>(num_frames_));
+  for (const double tempo : kTempos) {
+    const int length = std::max(4, static_cast<int>(std::lround(m * tempo)));
+    if (length > num_frames_) continue;
+    correlate(length == m ? pattern : stretched(pattern, length), correlation);
+    for (int start = 0; start + length <= num_frames_; ++start) {
+      Match& match = best[static_cast<std::size_t>(start + length / 2)];
+      const double value = correlation[static_cast<std::size_t>(start)];
+      if (value > match.correlation)
+        match = {start, length, value, tempo == kSlowest || tempo == kFastest ? -1.0 : 0.0, 0};
+    }
+  }
+  std::vector<int> peaks;
+  for (int c = 0; c < num_frames_; ++c) {
+    const double value = best[static_cast<std::size_t>(c)].correlation;
+    if (value < least) continue;
+    if (c > 0 && best[static_cast<std::size_t>(c - 1)].correlation > value) continue;
+    if (c + 1 < num_frames_ && best[static_cast<std::size_t>(c + 1)].correlation > value) continue;
+    peaks.push_back(c);
+  }
+  std::stable_sort(peaks.begin(), peaks.end(), [&](int a, int b) {
+    return best[static_cast<std::size_t>(a)].correlation > best[static_cast<std::size_t>(b)].correlation;
+  });
+  std::vector<unsigned char> taken(static_cast<std::size_t>(num_frames_), 0);
+  const int apart = std::max(1, static_cast<int>(kApart * m));
+  std::vector<Match> out;
+  for (const int c : peaks) {
+    if (taken[static_cast<std::size_t>(c)] != 0) continue;
+    Match match = best[static_cast<std::size_t>(c)];
+    if (match.amplitude >= 0) {
+      match.amplitude = amplitude(match.start, match.length);
+      for (const int other : peaks)
+        if (std::abs(other - c) >= kRival * m && std::abs(other - c) < apart)
+          match.rival = std::max(match.rival, best[static_cast<std::size_t>(other)].correlation);
+      out.push_back(match);
+    }
+    std::fill(taken.begin() + std::max(0, c - apart + 1), taken.begin() + std::min(num_frames_, c + apart), 1);
+  }
+  return out;
+}
+
+}  // namespace motex
