@@ -76,7 +76,8 @@ struct NameTexton : ModelEditing {
   void declare(Arguments& arguments) {
     declare_model(arguments);
     arguments.positional("T", "number or present name", texton);
-    arguments.positional("NAME", "to be used wherever a texton's number is; '' takes the name away", name);
+    arguments.positional("NAME", "to be used wherever a texton's number is; '' takes the name away", name).set =
+        [this](const std::string& text) { name = text; };
     declare_output(arguments);
   }
 

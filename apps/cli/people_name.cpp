@@ -17,7 +17,8 @@ struct Name {
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex people learn", path);
     arguments.positional("A", "letter or present name of the action", word);
-    arguments.positional("NAME", "to be used in scripts; '' takes the name away", name);
+    arguments.positional("NAME", "to be used in scripts; '' takes the name away", name).set =
+        [this](const std::string& text) { name = text; };
     arguments.value("-o,--output", "OUT", "the model with that name (.motex); default: MODEL itself", output);
   }
 
