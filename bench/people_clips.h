@@ -13,6 +13,7 @@
 #include "motex/people/people_texture.h"
 #include "motex/people/sprite.h"
 #include "motex/project/people_footage.h"
+#include "motex/project/simulate_actor.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex::bench {
@@ -46,6 +47,19 @@ inline PeopleClip load_dancer(const std::string& folder) {
   const std::vector<int> starts{0, 335, 531, 769, clip.texture.num_frames()};
   for (std::size_t i = 0; i + 1 < starts.size(); ++i)
     clip.texture.takes.push_back({"dancer1", starts[i], 0, false, {starts[i], starts[i + 1] - starts[i]}});
+  return clip;
+}
+
+/// A puppet moved by motion capture, cut out by its true alpha.
+inline PeopleClip load_simulated(int num_frames) {
+  SimulateActorOptions options;
+  options.frames = num_frames;
+  const ActorSimulation simulation(options);
+  PeopleClip clip;
+  clip.texture.width = options.width, clip.texture.height = options.height;
+  clip.texture.frames_per_sec = options.frames_per_sec;
+  for (int frame = 0; frame < num_frames; ++frame) add_frame(clip, simulation.sprite(frame, 0));
+  clip.texture.takes = {{"simulated", 0, 0, false, {0, num_frames}}};
   return clip;
 }
 

@@ -203,41 +203,48 @@ inline Drawing lines_figure(const PeopleClip& clip, SpriteSource& source, const 
   return row;
 }
 
-/// Figure 8: the head, and the hand that is farther from the middle, large, frame by frame.
-inline Drawing close_up(const Passage& passage) {
-  const Outline outline = outline_of({passage.rendered.front().sprite, {}});
-  const auto point_where = [&](auto better) {
-    return *std::max_element(outline.points.begin(), outline.points.end(),
-                             [&](const OutlinePoint& p, const OutlinePoint& q) { return better(q, p); });
-  };
-  const double middle = (passage.box.left + passage.box.right) / 2.0,
-               ground = passage.box.bottom - 0.25 * passage.box.height();
-  const OutlinePoint head = point_where([](const OutlinePoint& p, const OutlinePoint& q) { return p.y < q.y; });
-  const double below = head.y + 0.2 * outline.height;
-  const auto reach_of = [&](const OutlinePoint& p) { return p.y > below && p.y < ground ? std::abs(p.x - middle) : 0; };
-  const OutlinePoint hand =
-      point_where([&](const OutlinePoint& p, const OutlinePoint& q) { return reach_of(p) > reach_of(q); });
-  std::vector<Drawing> rows;
-  for (const bool is_head : {true, false}) {
-    const OutlinePoint& at = is_head ? head : hand;
-    const int reach = static_cast<int>((is_head ? 0.12 : 0.15) * outline.height);
-    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y), down = is_head ? reach / 2 : 0;
-    std::vector<Cell> cells = passage.rendered;
-    cells.insert(cells.begin(), passage.before.back());
-    cells.push_back(passage.after.front());
-    rows.push_back(row_of(cells, {x - reach, y - reach + down, x + reach, y + reach + down}, 130));
-  }
-  return below_one_another(rows);
+/// The passage large around a place, a share of the height each way.
+inline Drawing close_up(const Passage& passage, double x, double y, double share) {
+  const int reach = static_cast<int>(share * passage.box.height());
+  std::vector<Cell> cells = passage.rendered;
+  cells.insert(cells.begin(), passage.before.back());
+  cells.push_back(passage.after.front());
+  const int px = static_cast<int>(x), py = static_cast<int>(y);
+  return row_of(cells, {px - reach, py - reach, px + reach, py + reach}, 130);
 }
 
-/// The cuts among the best that are made at the greatest and the least speed.
-inline std::pair<Cut, Cut> moving_and_still(const PeopleTexture& texture, const std::vector<Cut>& cuts) {
+/// Figure 8: the head in one passage, the hand that is farther from the middle in another, frame by frame.
+inline Drawing close_ups(const Passage& of_head, const Passage& of_hand) {
+  const Outline with_head = outline_of({of_head.rendered[2].sprite, {}});
+  const Outline with_hand = outline_of({of_hand.rendered[2].sprite, {}});
+  const auto higher = [](const OutlinePoint& p, const OutlinePoint& q) { return p.y < q.y; };
+  const OutlinePoint head = *std::min_element(with_head.points.begin(), with_head.points.end(), higher);
+  const double middle = (of_hand.box.left + of_hand.box.right) / 2.0,
+               ground = of_hand.box.bottom - 0.3 * with_hand.height;
+  const auto reach_of = [&](const OutlinePoint& p) { return p.y < ground ? std::abs(p.x - middle) : 0; };
+  const OutlinePoint hand =
+      *std::max_element(with_hand.points.begin(), with_hand.points.end(),
+                        [&](const OutlinePoint& p, const OutlinePoint& q) { return reach_of(p) < reach_of(q); });
+  return below_one_another(
+      {close_up(of_head, head.x, head.y + 0.06 * with_head.height, 0.12), close_up(of_hand, hand.x, hand.y, 0.15)});
+}
+
+/// Among the best cuts those made at the greatest and the least speed, and with arms the farthest out.
+struct ChosenCuts {
+  Cut moving, still, wide;
+};
+inline ChosenCuts choose_cuts(const PeopleTexture& texture, const std::vector<Cut>& cuts) {
   const auto slower = [&](const Cut& a, const Cut& b) { return speed_at(texture, a.from) < speed_at(texture, b.from); };
   std::vector<Cut> best;
   for (const Cut& cut : cuts)
     if (best.size() < 40 && std::abs(cut.to - cut.from) >= 90) best.push_back(cut);
   if (best.empty()) throw InvalidInput("no cut leads far enough");
-  return {*std::max_element(best.begin(), best.end(), slower), *std::min_element(best.begin(), best.end(), slower)};
+  const auto narrower = [&](const Cut& a, const Cut& b) {
+    return texture.silhouettes[static_cast<std::size_t>(a.from)].aspect() <
+           texture.silhouettes[static_cast<std::size_t>(b.from)].aspect();
+  };
+  return {*std::max_element(best.begin(), best.end(), slower), *std::min_element(best.begin(), best.end(), slower),
+          *std::max_element(best.begin(), best.end(), narrower)};
 }
 
 /// Figures 5 to 8: people_textures_5.png ….
@@ -246,7 +253,7 @@ inline void draw_transition_figures(const std::string& clips, const std::filesys
   MemorySprites source(std::move(clip.sprites));
   const std::vector<Cut> cuts = usable_cuts(clip.texture, source);
   if (cuts.empty()) throw InvalidInput("no cut was found in dancer1");
-  const auto [moving, still] = moving_and_still(clip.texture, cuts);
+  const auto [moving, still, wide] = choose_cuts(clip.texture, cuts);
   const Passage passage = passage_of(clip, source, moving);
   write_picture(out / "people_textures_5.png", schematic(clip, moving, source));
   write_picture(out / "people_textures_6.png", weights_figure(passage));
@@ -255,9 +262,9 @@ inline void draw_transition_figures(const std::string& clips, const std::filesys
   append(lines, right, {lines.width + 30, 0});
   lines.width += right.width + 30;
   write_picture(out / "people_textures_7.png", lines);
-  write_picture(out / "people_textures_8.png", close_up(passage));
-  std::printf("figures 5 to 8: dancer1, cuts %d → %d (moving) and %d → %d (still)\n", moving.from, moving.to,
-              still.from, still.to);
+  write_picture(out / "people_textures_8.png", close_ups(passage, passage_of(clip, source, wide)));
+  std::printf("figures 5 to 8: dancer1, cuts %d → %d (moving), %d → %d (still), %d → %d (arms out)\n", moving.from,
+              moving.to, still.from, still.to, wide.from, wide.to);
 }
 
 }  // namespace motex::bench
