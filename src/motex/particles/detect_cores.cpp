@@ -18,10 +18,11 @@ constexpr int kRounds = 3;  // searches of what the spots found so far leave
 constexpr std::size_t kSampleFrames = 7;
 constexpr double kCrowded = 0.15;  // share of the picture within two scales of a peak
 constexpr double kOneSignedCrowded = 0.6;
-constexpr double kOneSigned = 0.8;       // share of the energy that makes a clip bright (or dark)
-constexpr double kOrientedAspect = 1.6;  // median aspect of the strongest elements
-constexpr double kRoundAspect = 1.5;     // a core below that is a Gaussian
-constexpr double kBarBreadth = 0.6;      // deviation of the bright bar of Gcos across, in its scales
+constexpr double kOneSigned = 0.8;        // share of the energy that makes a clip bright (or dark)
+constexpr double kOrientedAspect = 1.25;  // median aspect of the strongest elements
+constexpr double kCrowdedAspect = 1.6;    // lower quartile of it where they overlap
+constexpr double kRoundAspect = 1.5;      // a core below that is a Gaussian
+constexpr double kBarBreadth = 0.6;       // deviation of the bright bar of Gcos across, in its scales
 constexpr double kMinNoise = 0.5;
 constexpr double kGaussianMisfit = 0.04;  // up to that an element is a Gaussian, from twice that it has parts
 constexpr double kFaint = 0.08;           // of the amplitude that most of the energy has
@@ -339,7 +340,7 @@ DetectOptions decided(const DetectOptions& options, const std::vector<Plane>& re
     for (const Blob& blob : outstanding(residual, noise, out, misfits)) aspects.push_back(blob.aspect());
   if (out.shape == CoreShape::kAuto) {
     const double aspect = aspects.empty() ? 1 : quantile(aspects, is_crowded ? 0.25 : 0.5);
-    out.shape = aspect > kOrientedAspect ? CoreShape::kOriented : CoreShape::kRound;
+    out.shape = aspect > (is_crowded ? kCrowdedAspect : kOrientedAspect) ? CoreShape::kOriented : CoreShape::kRound;
   }
   out.shape_misfit = std::min(0.3, median(misfits));
   return out;

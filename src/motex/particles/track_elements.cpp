@@ -9,6 +9,7 @@
 #include "motex/core/error.h"
 #include "motex/core/parallel.h"
 #include "motex/core/quantile.h"
+#include "motex/particles/detect_shaped.h"
 #include "motex/particles/fit_element_model.h"
 
 namespace motex {
@@ -17,7 +18,14 @@ namespace {
 constexpr std::size_t kBackgroundFrames = 31;  // that the background is re-estimated from
 constexpr std::size_t kSureLength = 4;         // sights that a path needs before it says what to expect
 constexpr int kReachOut = 2;                   // frames before and after a path where it is looked for
-constexpr double kWidening = 1.5;              // of the deviations expected: paths may be wrong
+constexpr int kReachOutShaped = 6;             // the same for elements whose shapes are known
+constexpr int kShapedRounds = 3;
+constexpr int kLeastInside = 2;           // sights of an element with parts that are whole inside the picture
+constexpr std::size_t kLongestPart = 16;  // sights of a path that may be a part's
+constexpr double kBeside = 4.5;           // core scales
+constexpr double kHasParts = 0.06;        // shape_misfit from which elements are no single spots
+constexpr double kWellExplained = 0.8;    // share of their light that shapes must explain to be used
+constexpr double kWidening = 1.5;         // of the deviations expected: paths may be wrong
 
 using BlobFrames = std::vector<std::vector<Blob>>;
 
@@ -43,19 +51,21 @@ const Blob& blob_at(const BlobFrames& blobs, const SightChain& chain, std::size_
 /// Looks and places that a path leads one to expect, into the frames it crosses.
 class Expectations {
  public:
-  Expectations(const BlobFrames& blobs, const ElementModel& model, int width, int height, bool is_oriented)
+  Expectations(const BlobFrames& blobs, const ElementModel& model, int width, int height, bool is_oriented,
+               int reach_out)
       : blobs_(blobs),
         model_(model),
         width_(width),
         height_(height),
         is_oriented_(is_oriented),
+        reach_out_(reach_out),
         frames_(blobs.size()) {}
 
   void add(const SightChain& chain) {
     const bool is_sure = chain.sights.size() >= kSureLength;
     const int last_frame = static_cast<int>(frames_.size()) - 1;
-    const int before = is_sure ? std::min(kReachOut, chain.sights.front().frame) : 0,
-              after = is_sure ? std::min(kReachOut, last_frame - chain.sights.back().frame) : 0;
+    const int before = is_sure ? std::min(reach_out_, chain.sights.front().frame) : 0,
+              after = is_sure ? std::min(reach_out_, last_frame - chain.sights.back().frame) : 0;
     const std::vector<SmoothedPlace> places = smooth_path(model_, chain.sights, before, after);
     const int first = chain.sights.front().frame - before;
     std::size_t k = 0;
@@ -113,6 +123,7 @@ class Expectations {
   const ElementModel& model_;
   int width_, height_;
   bool is_oriented_;
+  int reach_out_;
   std::vector<std::vector<ExpectedBlob>> frames_;
 };
 
@@ -128,6 +139,68 @@ void improve_background(const std::vector<Plane>& left, Plane& background) {
     background.values[i] += *middle;
   }
 }
+
+/// Of elements with parts, paths that are none: of what reaches into the picture while the core stays outside, and
+/// short ones that begin and end beside longer ones, inside the picture.
+class PathsOfParts {
+ public:
+  PathsOfParts(const BlobFrames& blobs, const ElementModel& model, int width, int height)
+      : blobs_(blobs), model_(model), edges_{static_cast<double>(width), static_cast<double>(height)} {}
+
+  void drop(std::vector<SightChain>& chains) const {
+    std::vector<SightChain> kept;
+    for (const SightChain& chain : chains)
+      if (num_inside(chain) >= kLeastInside && !goes_beside(chain, chains)) kept.push_back(chain);
+    chains = std::move(kept);
+  }
+
+ private:
+  int num_inside(const SightChain& chain) const {
+    int num = 0;
+    for (std::size_t k = 0; k < chain.sights.size(); ++k) {
+      const Blob& blob = blob_at(blobs_, chain, k);
+      const double rim = blob.scale();
+      num +=
+          blob.x > rim && blob.y > rim && blob.x < edges_.width - 1 - rim && blob.y < edges_.height - 1 - rim ? 1 : 0;
+    }
+    return num;
+  }
+
+  /// From a sight to where the path is in its frame, also where that is not seen.
+  static double distance(const SightChain& path, const Sight& sight) {
+    const auto after = std::lower_bound(path.sights.begin(), path.sights.end(), sight.frame,
+                                        [](const Sight& one, int frame) { return one.frame < frame; });
+    if (after == path.sights.end() || (after == path.sights.begin() && after->frame != sight.frame)) return 1e300;
+    const auto before = after->frame == sight.frame ? after : after - 1;
+    const double share =
+        after == before ? 0 : static_cast<double>(sight.frame - before->frame) / (after->frame - before->frame);
+    return std::hypot((1 - share) * before->x + share * after->x - sight.x,
+                      (1 - share) * before->y + share * after->y - sight.y);
+  }
+
+  bool goes_beside(const SightChain& chain, const std::vector<SightChain>& chains) const {
+    const std::size_t num = chain.sights.size();
+    if (num > kLongestPart) return false;
+    const Sight &first = chain.sights.front(), &last = chain.sights.back();
+    const bool comes_in = edges_.is_entering(model_, first.x, first.y) || first.frame == 0;
+    const bool goes_out =
+        edges_.is_leaving(model_, last.x, last.y) || last.frame + 1 == static_cast<int>(blobs_.size());
+    if (comes_in && goes_out) return false;
+    std::size_t num_beside = 0;
+    for (std::size_t k = 0; k < num; ++k) {
+      const double reach = kBeside * blob_at(blobs_, chain, k).scale();
+      const bool is_beside = std::any_of(chains.begin(), chains.end(), [&](const SightChain& other) {
+        return other.sights.size() > 2 * num && distance(other, chain.sights[k]) < reach;
+      });
+      num_beside += is_beside ? 1 : 0;
+    }
+    return 2 * num_beside > num;
+  }
+
+  const BlobFrames& blobs_;
+  const ElementModel& model_;
+  PictureEdges edges_;
+};
 
 /// Between two sights: looks in proportion to time.
 Blob between(const Blob& a, const Blob& b, double share) {
@@ -177,6 +250,24 @@ Cable cable_of(const SightChain& chain, const BlobFrames& blobs, const ElementMo
   return cable;
 }
 
+/// What one way of following came to.
+struct Followed {
+  BlobFrames blobs;
+  std::vector<SightChain> chains;
+  LinkReport link;
+};
+
+/// Frames of the path that a sight is on, on average: paths in pieces are shorter.
+double mean_length(const std::vector<SightChain>& chains) {
+  double sum = 0, num = 0;
+  for (const SightChain& chain : chains) {
+    const double length = chain.sights.back().frame - chain.sights.front().frame + 1;
+    sum += length * length;
+    num += length;
+  }
+  return num > 0 ? sum / num : 0;
+}
+
 }  // namespace
 
 Sight sight_of(const Blob& blob, int frame) {
@@ -211,27 +302,48 @@ std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& backgro
   out.detect = decided(options.detect, residuals, out.noise);
   BlobFrames blobs(frames.luma.size());
   std::vector<SightChain> chains;
-  for (int round = 0; round < options.rounds; ++round) {
+  ElementShapes shapes;
+  Followed spots;  // before shapes were known
+  int num_rounds = options.rounds;
+  for (int round = 0; round < num_rounds; ++round) {
     job.check_cancelled();
-    job.progress("tracking elements", static_cast<double>(round) / options.rounds);
-    Expectations expected(blobs, out.link.model, frames.width, frames.height, out.detect.shape == CoreShape::kOriented);
+    job.progress("tracking elements", static_cast<double>(round) / (options.rounds + kShapedRounds));
+    if (round == options.rounds) chains.clear();  // paths of single spots say little of elements with parts
+    Expectations expected(blobs, out.link.model, frames.width, frames.height, out.detect.shape == CoreShape::kOriented,
+                          shapes.shapes.empty() ? kReachOut : kReachOutShaped);
     for (const SightChain& chain : chains) expected.add(chain);
     BlobFrames found(blobs.size());
     parallel_for(job.jobs, num_frames, [&](int t) {
       job.check_cancelled();
       const auto k = static_cast<std::size_t>(t);
-      found[k] = detect_blobs(residuals[k], out.noise, out.detect, expected.at(t), &left[k]);
+      found[k] = shapes.shapes.empty()
+                     ? detect_blobs(residuals[k], out.noise, out.detect, expected.at(t), &left[k])
+                     : detect_shaped_blobs(residuals[k], shapes, out.detect, out.noise, expected.at(t), &left[k]);
     });
     blobs = std::move(found);
     const ElementModel before = out.link.model;
     chains = link_chains(sights_of(blobs), frames.width, frames.height, options.link, round > 0 ? &before : nullptr,
                          out.link);
-    if (round + 1 == options.rounds) break;
+    if (!shapes.shapes.empty()) PathsOfParts(blobs, out.link.model, frames.width, frames.height).drop(chains);
+    if (round + 1 == options.rounds && out.detect.shape_misfit > kHasParts) {
+      shapes = learn_element_shapes(residuals, blobs, chains, out.noise);
+      if (shapes.explained < kWellExplained) shapes.shapes.clear();
+      if (!shapes.shapes.empty()) {
+        num_rounds += kShapedRounds;
+        spots = {blobs, chains, out.link};
+      }
+    }
+    if (round + 1 == num_rounds) break;
     improve_background(left, out.background);
     subtract_background();
     if (noise <= 0) out.noise = noise_of(left);
   }
   if (noise <= 0) out.noise = noise_of(left);
+  if (!shapes.shapes.empty() && mean_length(chains) < mean_length(spots.chains)) {
+    blobs = std::move(spots.blobs);
+    chains = std::move(spots.chains);
+    out.link = std::move(spots.link);
+  }
   std::vector<Cable> cables;
   for (const SightChain& chain : chains) cables.push_back(cable_of(chain, blobs, out.link.model));
   for (const auto& frame : blobs)

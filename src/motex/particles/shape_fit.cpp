@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/shape_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace motex {
+namespace {
+
+constexpr int kMostSteps = 8;
+constexpr std::size_t kMostTried = 2;  // shapes that are fitted: those that fit best as they are
+constexpr double kEnoughGain = 0.3;    // of the squared error in squared noises: less is not worth a step
+constexpr double kUnder = 0.1;         // of the amplitude: what lies under an element
+constexpr double kSettled = 0.05;      // scales: a shift that does not touch the neighbours
+
+std::array<double, 4> values_of(const ShapedElement& e) { return {e.x, e.y, e.log_scale, e.amplitude}; }
+
+double prior_cost(const ShapedElement& element, const ShapedPrior& prior) {
+  const std::array<double, 4> values = values_of(element);
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double off = values[i] - prior.mean[i];
+    sum += prior.precision[i] * off * off;
+  }
+  return sum;
+}
+
+}  // namespace
+
+ShapeFitter::ShapeFitter(const Plane& image, const ElementShapes& shapes, double noise)
+    : shapes_(&shapes), noise_(noise), left_(image) {}
+
+ShapeFitter::Box ShapeFitter::box_of(const ShapedElement& element) const {
+  const double reach = shapes_->shapes[static_cast<std::size_t>(element.shape)].reach() * std::exp(element.log_scale);
+  const auto low = [](double value) { return std::max(0, static_cast<int>(std::ceil(value))); };
+  const auto high = [](double value, int size) { return std::min(size, static_cast<int>(std::floor(value)) + 1); };
+  Box box{low(element.x - reach), low(element.y - reach), high(element.x + reach, left_.width),
+          high(element.y + reach, left_.height)};
+  box.right = std::max(box.left, box.right);
+  box.bottom = std::max(box.top, box.bottom);
+  return box;
+}
+
+void ShapeFitter::paint(const ShapedElement& element, float sign) {
+  const Box box = box_of(element);
+  const double inverse = std::exp(-element.log_scale);
+  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
+  const float weight = sign * static_cast<float>(element.amplitude);
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x)
+      left_.row(y)[x] -= weight * shape.at((x - element.x) * inverse, (y - element.y) * inverse).value;
+}
+
+/// Change of the cost when the element is added to what there is.
+double ShapeFitter::cost(const ShapedElement& element, const ShapedPrior& prior) const {
+  const Box box = box_of(element);
+  const double inverse = std::exp(-element.log_scale);
+  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
+  double sum = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const double value =
+          element.amplitude * static_cast<double>(shape.at((x - element.x) * inverse, (y - element.y) * inverse).value);
+      sum += value * (value - 2 * static_cast<double>(left_.at(x, y)));
+    }
+  return sum / (noise_ * noise_) + prior_cost(element, prior);
+}
+
+double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int num_steps) const {
+  double now = cost(element, prior), damping = 1e-3;
+  Eigen::Matrix4d curvature = Eigen::Matrix4d::Identity();
+  for (int step = 0; step < num_steps; ++step) {
+    const Box box = box_of(element);
+    const double inverse = std::exp(-element.log_scale), a = element.amplitude;
+    const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
+    curvature.setZero();
+    Eigen::Vector4d slope = Eigen::Vector4d::Zero();
+    for (int y = box.top; y < box.bottom; ++y)
+      for (int x = box.left; x < box.right; ++x) {
+        const double u = (x - element.x) * inverse, v = (y - element.y) * inverse;
+        const ShapeGrid::Point p = shape.at(u, v);
+        const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
+        const auto value = static_cast<double>(p.value);
+        const Eigen::Vector4d d(-a * inverse * along_u, -a * inverse * along_v, -a * (u * along_u + v * along_v),
+                                value);
+        curvature.noalias() += d * d.transpose();
+        slope += d * (static_cast<double>(left_.at(x, y)) - a * value);
+      }
+    curvature /= noise_ * noise_;
+    slope /= noise_ * noise_;
+    const std::array<double, 4> values = values_of(element);
+    for (int i = 0; i < 4; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      curvature(i, i) += prior.precision[k] + 1e-9;
+      slope[i] -= prior.precision[k] * (values[k] - prior.mean[k]);
+    }
+    bool is_better = false;
+    double saved = 0;
+    while (!is_better && damping < 1e4) {
+      Eigen::Matrix4d damped = curvature;
+      damped.diagonal() *= 1 + damping;
+      const Eigen::Vector4d change = damped.ldlt().solve(slope);
+      const double scale = std::exp(element.log_scale);
+      ShapedElement next = element;
+      next.x += std::clamp(change[0], -0.7 * scale, 0.7 * scale);
+      next.y += std::clamp(change[1], -0.7 * scale, 0.7 * scale);
+      next.log_scale += std::clamp(change[2], -0.3, 0.3);
+      next.amplitude += change[3];
+      const double then = cost(next, prior);
+      is_better = then < now;
+      damping *= is_better ? 0.2 : 10;
+      if (!is_better) continue;
+      saved = now - then;
+      now = then;
+      element = next;
+    }
+    if (saved < kEnoughGain) break;
+  }
+  const Eigen::Matrix4d covariance = curvature.ldlt().solve(Eigen::Matrix4d::Identity());
+  element.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
+  element.log_scale_spread = std::sqrt(std::max(0.0, covariance(2, 2)));
+  element.amplitude_spread = std::sqrt(std::max(0.0, covariance(3, 3)));
+  return now;
+}
+
+double ShapeFitter::try_one(ShapedElement& element, const ShapedPrior& prior) const {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < shapes_->shapes.size(); ++k) {
+    ShapedElement one = element;
+    one.shape = static_cast<int>(k);
+    order.emplace_back(cost(one, prior), one.shape);
+  }
+  std::sort(order.begin(), order.end());
+  order.resize(std::min(order.size(), kMostTried));
+  ShapedElement best = element;
+  double least = 1e300;
+  for (const auto& [start, shape] : order) {
+    ShapedElement one = element;
+    one.shape = shape;
+    const double now = solve(one, prior, kMostSteps);
+    if (now >= least) continue;
+    least = now;
+    best = one;
+  }
+  element = best;
+  return -least;
+}
+
+void ShapeFitter::unsettle_near(const ShapedElement& element) {
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const double reach = 0.8 * ShapeGrid::kReach * (std::exp(elements_[k].log_scale) + std::exp(element.log_scale));
+    if (std::hypot(elements_[k].x - element.x, elements_[k].y - element.y) < reach) is_settled_[k] = 0;
+  }
+}
+
+void ShapeFitter::add(const ShapedElement& element, const ShapedPrior& prior) {
+  unsettle_near(element);
+  elements_.push_back(element);
+  priors_.push_back(prior);
+  is_settled_.push_back(0);
+  paint(element, 1);
+}
+
+void ShapeFitter::remove(std::size_t idx) {
+  paint(elements_[idx], -1);
+  const ShapedElement gone = elements_[idx];
+  const auto place = static_cast<std::ptrdiff_t>(idx);
+  elements_.erase(elements_.begin() + place);
+  priors_.erase(priors_.begin() + place);
+  is_settled_.erase(is_settled_.begin() + place);
+  unsettle_near(gone);
+}
+
+void ShapeFitter::fit(int num_sweeps) {
+  for (int sweep = 0; sweep < num_sweeps; ++sweep) {
+    bool has_moved = false;
+    for (std::size_t k = 0; k < elements_.size(); ++k) {
+      if (is_settled_[k] != 0) continue;
+      const ShapedElement before = elements_[k];
+      paint(before, -1);
+      ShapedElement after = before;
+      try_one(after, priors_[k]);
+      elements_[k] = after;
+      paint(after, 1);
+      const double scale = std::exp(before.log_scale);
+      const bool moves = after.shape != before.shape ||
+                         std::hypot(after.x - before.x, after.y - before.y) > kSettled * scale ||
+                         std::abs(after.amplitude - before.amplitude) > 0.05 * std::abs(before.amplitude);
+      if (moves) unsettle_near(after);
+      has_moved = has_moved || moves;
+      is_settled_[k] = 1;
+    }
+    if (!has_moved) break;
+  }
+}
+
+double ShapeFitter::gain(std::size_t idx) const {
+  // Without it the residual is left + element: −cost of adding it there.
+  const ShapedElement& e = elements_[idx];
+  const Box box = box_of(e);
+  const double inverse = std::exp(-e.log_scale);
+  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
+  double sum = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const double value = e.amplitude * static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
+      sum += value * (value + 2 * static_cast<double>(left_.at(x, y)));
+    }
+  return sum / (noise_ * noise_);
+}
+
+double ShapeFitter::energy(std::size_t idx) const {
+  const ShapedElement& e = elements_[idx];
+  const Box box = box_of(e);
+  const double inverse = std::exp(-e.log_scale);
+  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
+  double sum = 0;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const auto value = static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
+      sum += value * value;
+    }
+  return sum * e.amplitude * e.amplitude / (noise_ * noise_);
+}
+
+double ShapeFitter::error() const {
+  double sum = 0;
+  for (const float value : left_.values) sum += static_cast<double>(value) * static_cast<double>(value);
+  return sum / (noise_ * noise_);
+}
+
+ShapeFitter::UnderOne ShapeFitter::look_under(const ShapedElement& e) const {
+  const Box box = box_of(e);
+  const double inverse = std::exp(-e.log_scale);
+  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
+  UnderOne out;
+  for (int y = box.top; y < box.bottom; ++y)
+    for (int x = box.left; x < box.right; ++x) {
+      const auto s = static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
+      if (s < kUnder) continue;
+      const double value = e.amplitude * s, rest = static_cast<double>(left_.at(x, y));
+      out.light += (value + rest) * (value + rest);
+      out.left += rest * rest;
+      out.num += 1;
+    }
+  return out;
+}
+
+double ShapeFitter::agreement(std::size_t idx) const {
+  const UnderOne under = look_under(elements_[idx]);
+  return under.light > 0 ? 1 - under.left / under.light : 0;
+}
+
+double ShapeFitter::misfit(std::size_t idx) const {
+  const UnderOne under = look_under(elements_[idx]);
+  return under.num > 0 ? under.left / under.num : 0;
+}
+
+}  // namespace motex
