@@ -239,12 +239,16 @@ inline ChosenCuts choose_cuts(const PeopleTexture& texture, const std::vector<Cu
   for (const Cut& cut : cuts)
     if (best.size() < 40 && std::abs(cut.to - cut.from) >= 90) best.push_back(cut);
   if (best.empty()) throw InvalidInput("no cut leads far enough");
-  const auto narrower = [&](const Cut& a, const Cut& b) {
-    return texture.silhouettes[static_cast<std::size_t>(a.from)].aspect() <
-           texture.silhouettes[static_cast<std::size_t>(b.from)].aspect();
+  std::vector<Cut> close;  // with a little more difference, and nearer
+  for (const Cut& cut : cuts)
+    if (cut.difference <= 1.3 * best.back().difference) close.push_back(cut);
+  const auto aspect = [&](const Cut& cut) {
+    return std::min(texture.silhouettes[static_cast<std::size_t>(cut.from)].aspect(),
+                    texture.silhouettes[static_cast<std::size_t>(cut.to)].aspect());
   };
+  const auto narrower = [&](const Cut& one, const Cut& other) { return aspect(one) < aspect(other); };
   return {*std::max_element(best.begin(), best.end(), slower), *std::min_element(best.begin(), best.end(), slower),
-          *std::max_element(best.begin(), best.end(), narrower)};
+          *std::max_element(close.begin(), close.end(), narrower)};
 }
 
 /// Figures 5 to 8: people_textures_5.png ….
