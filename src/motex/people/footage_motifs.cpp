@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "motex/core/error.h"
-
 namespace motex {
 
 FrameMatrix motif_series(const MotifSignals& signals) {
@@ -25,7 +23,11 @@ FrameMatrix motif_series(const MotifSignals& signals) {
 MotifReport find_footage_motifs(const PeopleTexture& texture, FindMotifsOptions options, const JobContext& job) {
   const MotifSignals signals = default_motif_signals(texture);
   const FrameMatrix series = motif_series(signals);
-  if (series.cols() == 0) throw InvalidInput("nobody moves in the footage, so that no action can be told from another");
+  if (series.cols() == 0) {
+    MotifReport report;
+    report.set.idle = signals.stretches;
+    return report;
+  }
   options.frames_per_sec = texture.frames_per_sec;
   return find_motifs(series, options, signals.stretches, job);
 }

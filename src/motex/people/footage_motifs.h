@@ -16,8 +16,8 @@ namespace motex {
 FrameMatrix motif_series(const MotifSignals& signals);
 
 /// The action alphabet of footage: what repeats in default_motif_signals(), inside takes, never across a cut. Starts
-/// are frames of the people texture. options.frames_per_sec is the texture's. Throws InvalidInput: nobody is to be
-/// seen; nothing moves; and what find_motifs throws. [PT04] section 2.2
+/// are frames of the people texture. options.frames_per_sec is the texture's. Where nothing moves at all everything is
+/// idle. Throws InvalidInput: nobody is to be seen; and what find_motifs throws. [PT04] section 2.2
 MotifReport find_footage_motifs(const PeopleTexture& texture, FindMotifsOptions options = {},
                                 const JobContext& job = {});
 

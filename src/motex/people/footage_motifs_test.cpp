@@ -83,9 +83,14 @@ TEST(FindFootageMotifs, NeverMatchesAcrossACut) {
       EXPECT_TRUE(one.start >= kCut || one.start + one.length <= kCut) << one.start << " + " << one.length;
 }
 
-TEST(FindFootageMotifs, RefusesSomebodyWhoNeverMoves) {
+TEST(FindFootageMotifs, SomebodyWhoNeverMovesIsIdleAndNobodyIsRefused) {
   PeopleTexture texture = kicking({}, 100);
   for (Silhouette& one : texture.silhouettes) one = texture.silhouettes[0];
+  const MotifReport found = find_footage_motifs(texture);
+  EXPECT_TRUE(found.set.motifs.empty());
+  ASSERT_EQ(found.set.idle.size(), 1U);
+  EXPECT_EQ(found.set.idle[0], (FrameSpan{0, 100}));
+  for (Silhouette& one : texture.silhouettes) one = {};
   EXPECT_THROW(find_footage_motifs(texture), InvalidInput);
 }
 
