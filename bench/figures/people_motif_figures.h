@@ -15,6 +15,7 @@
 #include "motex/project/keyed_footage.h"
 #include "motex/project/load_people.h"
 #include "motex/project/motif_pictures.h"
+#include "motex/project/simulate_actor.h"
 
 namespace motex::bench {
 
@@ -51,16 +52,35 @@ inline void draw_stages(const std::string& clip, int number, const std::filesyst
   write_picture(path, drawing);
 }
 
-/// 1, 3 and 4 of the dancer. Figure 2 needs the collision matrices of the paper's random projection.
+/// Frames of a simulated actor.
+class SimulatedPictures : public FramePictures {
+ public:
+  explicit SimulatedPictures(const ActorSimulation& scene) : scene_(scene) {}
+  Image picture(int frame) override { return scene_.frame(frame).image; }
+
+ private:
+  const ActorSimulation& scene_;
+};
+
+/// Figure 1 of the dancer; 3 and 4 of a puppet that motion capture moves, since the clips that may be shown repeat no
+/// action. Figure 2 needs the collision matrices of the paper's random projection.
 inline void draw_motif_figures(const std::string& clips, const std::filesystem::path& folder) {
-  const std::string clip = clips + "/dancer1_fullbody_green_640x360.mp4";
-  draw_stages(clip, 290, folder / "people_textures_1.png");
-  LoadedPeople people = load_people(clip);
-  people.texture.alphabet = find_footage_motifs(people.texture).set;
-  std::printf("figures 3 and 4: %zu actions\n", people.texture.alphabet.motifs.size());
-  if (people.texture.alphabet.motifs.empty()) return;
-  write_picture(folder / "people_textures_3.png", draw_motif_matches(people.texture));
-  write_picture(folder / "people_textures_4.png", draw_filmstrips(people.texture, *people.pictures, 2));
+  draw_stages(clips + "/dancer1_fullbody_green_640x360.mp4", 290, folder / "people_textures_1.png");
+  SimulateActorOptions options;
+  options.actions = "left_kick,right_kick,bow";
+  options.frames = 1200;
+  options.seed = 3;
+  const ActorSimulation scene(options);
+  PeopleTexture texture;
+  texture.width = options.width, texture.height = options.height, texture.frames_per_sec = options.frames_per_sec;
+  texture.takes = {{"simulated", 0, 0, false, {0, options.frames}}};
+  for (int t = 0; t < options.frames; ++t) texture.silhouettes.push_back(measure_silhouette(scene.sprite(t, 0)));
+  texture.alphabet = find_footage_motifs(texture).set;
+  std::printf("figures 3 and 4: %zu actions\n", texture.alphabet.motifs.size());
+  if (texture.alphabet.motifs.empty()) return;
+  SimulatedPictures pictures(scene);
+  write_picture(folder / "people_textures_3.png", draw_motif_matches(texture));
+  write_picture(folder / "people_textures_4.png", draw_filmstrips(texture, pictures, 3));
 }
 
 }  // namespace motex::bench
