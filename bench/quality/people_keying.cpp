@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Keying against known mattes: IoU of alpha ≥ ½, mean absolute difference of alpha · 10³, dtSSD · 10³ (root mean square
 // of the error's change from frame to frame), processor milliseconds a frame, and seconds for the clean plate.
-// people_keying FOLDER...: each holds frames as actor.bgr (raw) and mattes as actor_alpha.npy (uint8, frames × rows ×
-// columns); without arguments two takes of the simulated puppet.
+// people_keying FOLDER...: each made by `motex people simulate`, or holding frames as actor.bgr (raw) and mattes as
+// actor_alpha.npy (uint8, frames × rows × columns).
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -17,6 +17,7 @@
 #include "motex/core/files.h"
 #include "motex/people/clean_plate.h"
 #include "motex/people/key.h"
+#include "motex/video_io/video_reader.h"
 
 namespace motex {
 namespace {
@@ -58,6 +59,24 @@ Scene read_scene(const std::filesystem::path& folder) {
     scene.alphas.emplace_back(matte, matte + static_cast<std::ptrdiff_t>(size));
   }
   return scene;
+}
+
+/// As `motex people simulate` writes it.
+Scene read_simulation(const std::filesystem::path& folder) {
+  const bool lossless = std::filesystem::exists(folder / "scene.mkv");
+  VideoReader film(folder / (lossless ? "scene.mkv" : "scene.mp4")), mattes(folder / "matte.mkv");
+  Scene scene;
+  for (VideoFrame frame, matte; film.next(frame) && mattes.next(matte);) {
+    std::vector<std::uint8_t> alphas;
+    for (const Rgba& pixel : matte.image.pixels) alphas.push_back(pixel.r);
+    scene.frames.push_back(std::move(frame.image));
+    scene.alphas.push_back(std::move(alphas));
+  }
+  return scene;
+}
+
+Scene read_folder(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "matte.mkv") ? read_simulation(folder) : read_scene(folder);
 }
 
 struct Score {
@@ -119,9 +138,10 @@ void measure(const std::string& name, const Scene& scene) {
 }
 
 int run(const std::vector<std::string>& folders) {
+  if (folders.empty()) std::puts("people_keying FOLDER...: name folders with frames and true mattes");
   for (const std::string& folder : folders) {
     try {
-      measure(folder, read_scene(folder));
+      measure(folder, read_folder(folder));
     } catch (const Error& error) {
       std::printf("%s: %s\n", folder.c_str(), error.what());
     }

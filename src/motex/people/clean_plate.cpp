@@ -27,6 +27,7 @@ namespace {
 constexpr int kMostFrames = 48;
 constexpr std::size_t kMostBytes = std::size_t{192} << 20;
 constexpr int kFewestNatural = 8;
+constexpr double kMostNaturalNoise = 3.5;  // grey levels
 constexpr float kSeldom = 0.3F;  // of the frames: where the screen is seen less, something may stand before it
 
 void check_frames(std::span<const Image> frames) {
@@ -235,7 +236,8 @@ CleanPlate natural_plate(std::span<const Image> frames, double noise, const JobC
     throw InvalidInput("a natural background is learned from at least " + std::to_string(kFewestNatural) +
                        " frames in which the actor moves, not " + std::to_string(frames.size()) +
                        "; give a picture of the empty scene (--plate)");
-  PixelStatistics pixels = cluster_pixels(frames, nullptr, 0, noise, job);
+  // What a moving camera does to outlines must not pass for noise.
+  PixelStatistics pixels = cluster_pixels(frames, nullptr, 0, std::min(noise, kMostNaturalNoise), job);
   const Mask steady = threshold(pixels.share, 0.4F);
   CleanPlate plate;
   plate.kind = ScreenKind::kNatural;

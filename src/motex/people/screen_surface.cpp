@@ -17,9 +17,10 @@ using Colour = Eigen::Vector3d;
 using Terms = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kCellsAcross = 40;
-constexpr double kBorder = 0.12;     // share of the frame's sides that counts as border
-constexpr double kBorderWeight = 3;  // of a sample near the border, where the actor seldom is
-constexpr int kBins = 16;            // of a channel
+constexpr double kBorder = 0.12;                              // share of the frame's sides that counts as border
+constexpr double kBorderWeight = 3;                           // of a sample near the border, where the actor seldom is
+constexpr int kBins = 16;                                     // of a channel
+constexpr double kMostSpread = 10, kMostSpreadColoured = 26;  // grey levels around the surface
 constexpr double kMinShare = 0.2, kMinBorderShare = 0.4;
 
 /// Mean colour of a small square of one frame.
@@ -178,6 +179,9 @@ std::optional<ScreenSurface> find_screen(std::span<const Image> frames, const Ma
   }
   surface.share = num_on / static_cast<double>(samples.size());
   surface.border_share = num_on_border / std::max(1.0, num_border);
+  // One hue says screen even where its light varies; greys in all shades are a scene.
+  const bool coloured = screen.maxCoeff() - screen.minCoeff() > 0.4 * screen.maxCoeff();
+  if (surface.spread > (coloured ? kMostSpreadColoured : kMostSpread)) return std::nullopt;
   if (surface.share < kMinShare || surface.border_share < kMinBorderShare) return std::nullopt;
   return surface;
 }

@@ -24,7 +24,8 @@ struct ScreenSurface {
 };
 
 /// The smooth surface that most of the frames show, above all near their border; nothing when no colour is common
-/// enough (a fifth of the samples, two fifths near the border).
+/// enough (a fifth of the samples, two fifths near the border) or it is no surface (spread above 10 grey levels; 26 for
+/// a strong hue).
 std::optional<ScreenSurface> find_screen(std::span<const Image> frames, const Mask* garbage);
 
 }  // namespace motex

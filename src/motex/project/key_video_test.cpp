@@ -3,7 +3,6 @@
 #include "motex/project/key_video.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -20,7 +19,9 @@ namespace fs = std::filesystem;
 
 class KeyVideo : public testing::Test {
  protected:
-  KeyVideo() : folder_(fs::temp_directory_path() / ("motex_key_" + std::to_string(::getpid()))) {
+  KeyVideo()
+      : folder_(fs::path(testing::TempDir()) /
+                ("motex_key_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
     fs::create_directories(folder_);
   }
   ~KeyVideo() override {
