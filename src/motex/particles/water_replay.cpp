@@ -20,6 +20,7 @@ constexpr double kHole = 0.9;          // of cell_size: a place that far from al
 constexpr double kLeastWeight = 0.08;  // bases with less are not drawn
 constexpr std::int64_t kShortest = 4;  // frames that a cell is shown between coming and going, at least
 constexpr std::int64_t kFewestFrames = 12;
+constexpr double kBalance = 6;  // weight of a place's mean light in the choice of a moment
 
 double square(double a) { return a * a; }
 
@@ -67,6 +68,12 @@ WaterReplay::WaterReplay(const std::vector<Cable>& cables, std::int64_t num_fram
       bases.push_back(cables[static_cast<std::size_t>(k)].at(t));
     seen_.push_back(small_picture(bases, width, height, renderer));
   }
+  sums_.emplace_back(seen_[0].width, seen_[0].height);
+  for (const Plane& seen : seen_) {
+    sums_.push_back(sums_.back());
+    for (std::size_t i = 0; i < seen.values.size(); ++i) sums_.back().values[i] += seen.values[i];
+  }
+  drift_ = Plane(seen_[0].width, seen_[0].height);
   // so that the first cells belong together
   now_ = seen_[static_cast<std::size_t>(rng_.below(static_cast<std::uint64_t>(num_frames)))];
   energies_ = Plane(now_.width, now_.height);
@@ -125,9 +132,15 @@ void WaterReplay::begin_cell(double x, double y) {
   cells_.push_back(cell);
 }
 
-/// Mean squared difference between what is there now and what was there just before that moment, around (x, y).
+/// Around (x, y): mean squared difference between what is there now and what was there just before that moment, and the
+/// square of the mean light that the place would come to by what follows it.
 double WaterReplay::mismatch(std::int64_t moment, double x, double y) const {
   const Plane& then = seen_[static_cast<std::size_t>(moment - 1)];
+  const auto life = std::min(static_cast<std::int64_t>(options_.cell_life), num_frames_ - moment);
+  const Plane &from = sums_[static_cast<std::size_t>(moment)], &to = sums_[static_cast<std::size_t>(moment + life)];
+  const Plane& all = sums_.back();
+  const auto share = static_cast<float>(static_cast<double>(life) / static_cast<double>(num_frames_));
+  const auto part = 1 / static_cast<float>(num_frames_);
   const double reach = 0.75 * options_.cell_size / kSmall;
   const int left = std::max(0, static_cast<int>(x / kSmall - reach)),
             right = std::min(now_.width - 1, static_cast<int>(x / kSmall + reach));
@@ -136,7 +149,11 @@ double WaterReplay::mismatch(std::int64_t moment, double x, double y) const {
   double sum = 1e-3;
   int count = 1;
   for (int j = top; j <= bottom; ++j)
-    for (int i = left; i <= right; ++i, ++count) sum += square(static_cast<double>(then.at(i, j) - now_.at(i, j)));
+    for (int i = left; i <= right; ++i, ++count) {
+      const float follows = part * (to.at(i, j) - from.at(i, j) - share * all.at(i, j));
+      sum += square(static_cast<double>(then.at(i, j) - now_.at(i, j))) +
+             kBalance * square(static_cast<double>(drift_.at(i, j) + follows));
+    }
   return sum / count;
 }
 
@@ -213,6 +230,9 @@ void WaterReplay::next(MovetonFrame& frame) {
   for (const Cell& cell : cells_) show_cell(cell, frame);
   BaseRenderer renderer(1.0 / kSmall);
   now_ = small_picture(frame.bases, width_, height_, renderer);
+  const auto part = 1 / static_cast<float>(num_frames_);
+  for (std::size_t i = 0; i < drift_.values.size(); ++i)
+    drift_.values[i] += part * (now_.values[i] - part * sums_.back().values[i] - drift_.values[i]);
 }
 
 }  // namespace motex

@@ -42,7 +42,9 @@ struct WaterReplayOptions {
 ///   w_k(x) = s_k e_k(x) / √(Σ_j s_j² e_j(x)²),   e_k(x) = exp(−|x − x_k|² / 2τ²),   τ = 0.3 cell_size,
 /// so that the variance of the light is the clip's and no seam shows; s_k rises and falls over blend_frames. Cells are
 /// begun where the flow leaves a hole (sources), ended where it crowds them (sinks) and after their life; the moment of
-/// a new one is drawn among those whose light is like that which is there.
+/// a new one is drawn among those whose light is like that which is there, and which bring the mean light of the place
+/// back to the clip's: without that, moments that are alike follow one another for ever, and the picture stays too
+/// bright or too dark where water is slow.
 class WaterReplay {
  public:
   /// cables, flow: kept by reference. num_frames: of the clip they come from, ≥ 12. Throws InvalidInput.
@@ -80,6 +82,8 @@ class WaterReplay {
   int width_, height_;
   std::vector<std::vector<int>> alive_in_;  ///< [frame of the clip] → cables
   std::vector<Plane> seen_;                 ///< light of the bases of the clip, small
+  std::vector<Plane> sums_;                 ///< [t] Σ seen_ of the frames before t
+  Plane drift_;                             ///< mean of the last frames given (fading over num_frames), less the clip's
   Plane now_;                               ///< of the frame given last, small
   Plane energies_;                          ///< Σ s² e², small
   std::vector<Cell> cells_;

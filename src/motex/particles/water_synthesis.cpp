@@ -32,7 +32,7 @@ void append_weighted(const MovetonFrame& from, double weight, MovetonFrame& to) 
 }
 
 /// light(x, y) at the centres of the pixels of a magnified picture, bilinear.
-void add_light(const Plane& light, const Plane& mean, double magnification, Planes& planes) {
+void add_light(const Plane& light, double magnification, Planes& planes) {
   const int width = planes[0].width, height = planes[0].height;
   for (int y = 0; y < height; ++y) {
     const double from_y = std::clamp((y + 0.5) / magnification - 0.5, 0.0, light.height - 1.0);
@@ -44,17 +44,16 @@ void add_light(const Plane& light, const Plane& mean, double magnification, Plan
       const int left = std::min(static_cast<int>(from_x), std::max(0, light.width - 2));
       const int right = std::min(left + 1, light.width - 1);
       const auto fx = static_cast<float>(from_x - left);
-      const auto at = [&](int i, int j) { return light.at(i, j) - mean.at(i, j); };
-      const float value = (1 - fy) * ((1 - fx) * at(left, top) + fx * at(right, top)) +
-                          fy * ((1 - fx) * at(left, bottom) + fx * at(right, bottom));
+      const float value = (1 - fy) * ((1 - fx) * light.at(left, top) + fx * light.at(right, top)) +
+                          fy * ((1 - fx) * light.at(left, bottom) + fx * light.at(right, bottom));
       for (Plane& plane : planes) plane.at(x, y) += value;
     }
   }
 }
 
-void add_light(const Plane& light, const Plane& mean, Planes& planes) {
+void add_light(const Plane& light, Planes& planes) {
   for (Plane& plane : planes)
-    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] += light.values[i] - mean.values[i];
+    for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] += light.values[i];
 }
 
 }  // namespace
@@ -98,7 +97,6 @@ WaterPainter::WaterPainter(const TexturedMotion& model, Planes background, doubl
     : background_(std::move(background)), renderer_(magnification), light_(water_of(model).light, seed ^ 0x11647) {
   fill_image(background_, background_image_);
   sum_ = background_;
-  mean_ = water_of(model).light.mean;
 }
 
 void WaterPainter::paint(const MovetonFrame& frame, Image& picture, Image& layer) {
@@ -107,9 +105,9 @@ void WaterPainter::paint(const MovetonFrame& frame, Image& picture, Image& layer
   renderer_.add(frame.bases, sum_);
   const Plane& light = light_.next();
   if (renderer_.magnification() == 1)
-    add_light(light, mean_, sum_);
+    add_light(light, sum_);
   else
-    add_light(light, mean_, renderer_.magnification(), sum_);
+    add_light(light, renderer_.magnification(), sum_);
   fill_image(sum_, picture);
   make_layer(picture, background_image_, layer);
 }

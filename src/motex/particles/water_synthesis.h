@@ -29,8 +29,9 @@ class WaterSource : public MovetonSource {
   std::int64_t num_shown_ = 0;
 };
 
-/// Movetons and, over them, the light that bases miss: I = background + Σ α_j b_j + deviation · z, z by the
-/// autoregression of the model ([TM02] eq. 1). Frames must come in order. At other resolutions the light is
+/// Movetons and, over them, the light that bases miss: I = background + Σ α_j b_j + mean + deviation · z, z by the
+/// autoregression of the model ([TM02] eq. 1); its mean takes away what the bases add to the background in the mean.
+/// Frames must come in order. At other resolutions the light is
 /// interpolated.
 class WaterPainter : public FramePainter {
  public:
@@ -43,7 +44,6 @@ class WaterPainter : public FramePainter {
   Image background_image_;
   BaseRenderer renderer_;
   StarSampler light_;
-  Plane mean_;  ///< of the light: the background has it
 };
 
 }  // namespace motex
