@@ -104,16 +104,14 @@ class Suffix {
     const std::size_t begin = digits_at_end(word, false);
     if (begin == word.size() || begin == 0) return false;
     std::string before = trimmed_text(word.substr(0, begin));
+    const bool letter_x = before.ends_with('x') || before.ends_with('X');
     if (before.ends_with("×"))
       before.resize(before.size() - std::string_view("×").size());
-    else if (before.ends_with('*'))
-      before.pop_back();
-    else if ((before.ends_with('x') || before.ends_with('X')) &&
-             (before.size() == 1 || before[before.size() - 2] == ' '))
+    else if (before.ends_with('*') || (letter_x && (before.size() == 1 || before[before.size() - 2] == ' ')))
       before.pop_back();
     else
       return false;
-    if (trimmed_text(before).empty()) return false;  // "*2" alone is free play, twice
+    if (trimmed_text(before).empty()) return false;  // nothing is left that could be repeated
     const auto [end, code] = std::from_chars(word.data() + begin, word.data() + word.size(), direction.times);
     if (code != std::errc() || direction.times < 1 || direction.times > kMaxTimes)
       throw InvalidInput("'" + word + "': an action can be asked for 1 to " + std::to_string(kMaxTimes) + " times");
