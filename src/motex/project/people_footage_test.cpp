@@ -3,7 +3,6 @@
 #include "motex/project/people_footage.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +27,9 @@ constexpr int kWidth = 200, kHeight = 120;
 /// Films before a green screen in a folder of their own.
 class ReadPeopleFootage : public testing::Test {
  protected:
-  ReadPeopleFootage() : folder_(fs::path(testing::TempDir()) / ("people_footage_" + std::to_string(::getpid()))) {
+  ReadPeopleFootage()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("people_footage_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(folder_);
   }
   ~ReadPeopleFootage() override { fs::remove_all(folder_); }
