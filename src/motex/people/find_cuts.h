@@ -11,7 +11,7 @@ namespace motex {
 
 struct FindCutsOptions {
   double min_jump_secs = 0.5;
-  double max_smoothness = 1;
+  double max_smoothness = 1.5;
   double max_difference = 0;
 
   template <typename Self, typename Visitor>
