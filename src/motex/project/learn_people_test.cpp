@@ -3,7 +3,6 @@
 #include "motex/project/learn_people.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -21,7 +20,9 @@ namespace fs = std::filesystem;
 /// Films of a simulated actor in a folder of their own.
 class LearnPeople : public testing::Test {
  protected:
-  LearnPeople() : folder_(fs::path(testing::TempDir()) / ("learn_people_" + std::to_string(::getpid()))) {
+  LearnPeople()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("learn_people_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(folder_);
     options_.frames = 560;
     options_.width = 240;

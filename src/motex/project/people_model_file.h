@@ -60,8 +60,8 @@ class StoredFootage : public SpriteSource {
     int take = 0, chunk = 0;
     std::unique_ptr<FilmChunkReader> reader;
   };
-  std::list<OpenChunk> readers_;  // the last used first
-  std::list<std::pair<int, std::shared_ptr<const Sprite>>> kept_;       // the same
+  std::list<OpenChunk> readers_;                                   // the last used first
+  std::list<std::pair<int, std::shared_ptr<const Sprite>>> kept_;  // the same
 };
 
 }  // namespace motex
