@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 #include "motex/core/files.h"
 #include "motex/people/matrix_profile.h"
 #include "motex/people/motifs.h"
+#include "motex/people/random_projection.h"
 #include "motex/project/series_csv.h"
 #include "options_value.h"
 #include "output_file.h"
@@ -86,6 +88,7 @@ struct Motifs {
   std::vector<std::string> columns;
   FindMotifsOptions options;
   FootageMotifs footage;
+  bool paper = false;
 
   void declare(Arguments& arguments) {
     arguments.positional("VIDEO|MODEL|SERIES",
@@ -96,6 +99,8 @@ struct Motifs {
                     columns);
     arguments.value("--profile", "CSV", "write the exact matrix profile: start, distance, nearest", profile_path);
     arguments.value("--fps", "RATE", "frames a second of the series (default 30)", options.frames_per_sec);
+    arguments.toggle("--paper", "as the paper: random projection of one signal, windows of 40, 80 and 160 frames",
+                     paper);
     arguments.section("Finding motifs");
     arguments.options(options);
     footage.declare(arguments);
@@ -103,8 +108,8 @@ struct Motifs {
 
   void run(Session& session) {
     if (!is_series_file(input)) {
-      if (!profile_path.empty() || !columns.empty())
-        throw InvalidInput("--profile and --column go with a SERIES (.csv); motex people signals writes one");
+      if (!profile_path.empty() || !columns.empty() || paper)
+        throw InvalidInput("--profile, --column and --paper go with a SERIES (.csv); motex people signals writes one");
       return footage.run(input, options, session);
     }
     if (footage.is_asked_for()) throw InvalidInput("--picture goes with VIDEO|MODEL");
@@ -115,8 +120,12 @@ struct Motifs {
     if (session.flags.dry_run)
       return would_write(profile_path.empty() ? std::vector<std::string>{} : std::vector<std::string>{profile_path},
                          table.values.rows(), session);
-    const MotifReport report = find_motifs(table.values, options, {}, session.job(0, profile_path.empty() ? 1 : 0.9));
     Value object;
+    MotifReport report;
+    if (paper)
+      report.set = paper_motifs(table, object, session);
+    else
+      report = find_motifs(table.values, options, {}, session.job(0, profile_path.empty() ? 1 : 0.9));
     object["input"] = input;
     object["frames"] = static_cast<std::int64_t>(table.values.rows());
     object["signals"] = table.names;
@@ -125,6 +134,45 @@ struct Motifs {
   }
 
  private:
+  /// Random projection for each of the paper's lengths; the aspect ratio, else the first signal. What was found is told
+  /// beside what is exact.
+  MotifSet paper_motifs(const SeriesTable& table, Value& object, Session& session) const {
+    const auto aspect = std::find(table.names.begin(), table.names.end(), "aspect");
+    const Index column = aspect == table.names.end() ? 0 : aspect - table.names.begin();
+    std::vector<int> lengths{40, 80, 160};
+    if (options.window > 0) lengths = {options.window};
+    MotifSet set;
+    Value::List searches;
+    for (const int window : lengths) {
+      if (options.window == 0 && 2 * window > table.values.rows()) continue;
+      const SeriesWindows windows = series_windows(table.values.col(column), window);
+      RandomProjectionOptions projection;
+      projection.radius = options.radius;
+      projection.max_motifs = std::min(options.max_motifs, 10);
+      const RandomProjectionReport found = random_projection_motifs(windows, projection, session.job());
+      const MatrixProfile profile = matrix_profile(windows, window - 1, session.job());
+      const double exact =
+          *std::min_element(profile.distance.begin(), profile.distance.end()) / std::sqrt(static_cast<double>(window));
+      Value search;
+      search["window"] = window;
+      search["distance_found"] = found.distance;
+      search["distance_exact"] = exact;
+      search["found_over_exact"] = found.distance / exact;
+      search["radius"] = found.radius;
+      search["collisions"] = static_cast<std::int64_t>(found.collisions.back().size());
+      searches.push_back(search);
+      session.say(std::to_string(window) + " frames: closest pair found " + fixed(found.distance, 4) + ", exact " +
+                  fixed(exact, 4) + ", ratio " + fixed(found.distance / exact, 3) + ", R " + fixed(found.radius, 4));
+      set.motifs.insert(set.motifs.end(), found.motifs.begin(), found.motifs.end());
+    }
+    if (searches.empty()) throw InvalidInput(input + ": too short for windows of 40 frames: say a --window");
+    std::stable_sort(set.motifs.begin(), set.motifs.end(),
+                     [](const Motif& a, const Motif& b) { return a.occurrences.size() > b.occurrences.size(); });
+    for (std::size_t k = 0; k < set.motifs.size(); ++k) set.motifs[k].letter = motif_letter(static_cast<int>(k));
+    object["searches"] = searches;
+    return set;
+  }
+
   void write_profile(const FrameMatrix& series, const MotifReport& report, Value& object, Session& session) const {
     int window = options.window;
     if (window == 0 && !report.set.motifs.empty()) window = report.set.motifs[0].window;
@@ -173,6 +221,7 @@ Command people_motifs() {
        "motex people motifs actor.mp4 --picture alphabet.png\n"
        "motex people motifs actor.motex --json\n"
        "motex people motifs aspect.csv\n"
+       "motex people motifs aspect.csv --paper --json\n"
        "motex people motifs signals.csv --column aspect --window 80 --profile profile.csv --json"});
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kShortestWindow = 4;
 constexpr double kLengthStep = 1.12;
-constexpr int kSeedsALength = 10;
+constexpr int kSeedsALength = 14, kSeedsOfOneLength = 60;
 constexpr int kBackgroundFrames = 8000;
 constexpr double kLeastCorrelation = 0.85;
 constexpr double kLevelSecs = 0.8;
@@ -363,7 +363,7 @@ std::vector<Seed> seeds_of_all_lengths(Search& search, const std::vector<int>& l
     SeriesWindows windows = series_windows(search.series, window, search.stretches);
     leave_out_idle(windows, search);
     const MatrixProfile profile = matrix_profile(windows, window / 2, search.job);
-    const std::vector<int> starts = seeds_of(profile, kSeedsALength);
+    const std::vector<int> starts = seeds_of(profile, search.options.window > 0 ? kSeedsOfOneLength : kSeedsALength);
     search.places = static_cast<double>(std::count(windows.usable.begin(), windows.usable.end(), 1));
     num_patterns += search.places / (window / 2.0);
     search.backgrounds.clear();
