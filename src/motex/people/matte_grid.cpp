@@ -14,6 +14,7 @@ namespace {
 constexpr float kCertain = 3;     // times the limit: squares that show the actor for sure
 constexpr int kGrowth = 3;        // squares; how far from these less different ones are believed
 constexpr float kTrace = 0.002F;  // of the mean difference of what is certain: what differs less is blur or ringing
+constexpr double kFilled = 0.7;   // of the limit: holes that differ as much on average are no background
 constexpr double kFaint = 0.015;  // of the largest part's mean difference: what differs less is a trace of light
 
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
@@ -159,7 +160,8 @@ void tidy(const MatteGridLimits& limits, MatteGrid& grid) {
     const MaskRegion& region = regions[size(idx)];
     const auto area = static_cast<double>(region.area);
     if (region.value) return area < limits.min_area || mean(size(idx)) < faint;
-    return !region.at_border && (area < limits.min_hole || mean(size(idx)) > 6 + 10 / std::sqrt(area));
+    return !region.at_border &&
+           (area < limits.min_hole || mean(size(idx)) > kFilled * limits.difference + 10 / std::sqrt(area));
   };
   grid.box = {grid.width(), grid.height(), -1, -1};
   for (const RegionRun& run : grid.regions.runs) {
