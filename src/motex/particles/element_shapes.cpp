@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kSureLength = 6;  // sights of a path that is learned from
 constexpr std::size_t kFewest = 40;     // elements that stand alone, to learn from
-constexpr double kFewestAlone = 0.3;    // share of all sights: where fewer do, overlaps decide
+constexpr double kFewestAlone = 0.27;   // share of all sights: where fewer do, overlaps decide
 constexpr std::size_t kMost = 800;      // more are not looked at
 constexpr std::size_t kEachShape = 20;  // elements
 constexpr std::size_t kMostShapes = 8;
@@ -283,6 +283,7 @@ class ShapeLearner {
     out.core = fitter.blobs()[0];
     const double du = (out.core.x - kMiddle) * ShapeGrid::kSpacing, dv = (out.core.y - kMiddle) * ShapeGrid::kSpacing;
     out.core.x = out.core.y = 0;
+    out.core.e1 = out.core.e2 = 0;  // round: what is longer is the coils' part
     out.core.log_scale += std::log(ShapeGrid::kSpacing);
     for (Example& one : examples_) move(one, du, dv);
     look_again();

@@ -72,7 +72,7 @@ struct ElementShapes {
 
 /// Shapes from elements that stand alone: their pictures, scaled, in up to eight groups; places are shifted until the
 /// pictures of a group agree, and groups until paths are smooth across a change of shape (a flap of the wings must not
-/// shake the body). No shapes when fewer than 40 or 30 % stand alone.
+/// shake the body). No shapes when fewer than 40 or 27 % stand alone.
 /// residuals: frames minus background; blobs: of each frame; chains: their paths; noise: deviation of a pixel.
 ElementShapes learn_element_shapes(const std::vector<Plane>& residuals, const std::vector<std::vector<Blob>>& blobs,
                                    const std::vector<SightChain>& chains, double noise);
