@@ -28,13 +28,15 @@ struct KeyOptions {
 };
 
 /// Cuts the actor out of frames of a fixed camera, one frame at a time and each for itself: the same frame gives the
-/// same sprite in any order. A pixel is I = α F + (1 − α) B with the clean plate's B:
-/// 1. Squares of 2 × 2 pixels differ from the plate when |ΔI|² exceeds the noise; loose specks and holes that are no
-///    background are cleared up. Squares inside are opaque.
-/// 2. In squares at the rim, F is carried outwards from the inside (weighted mean over ± 8 pixels, so that spilled
-///    light is in it) and α = (I − B)·(F − B) / |F − B|², cut off at 0 and 1 within two deviations.
-/// 3. Colours α F = I − (1 − α) B; of F near the rim the screen's excess is taken away.
-/// Cost: about 1 ms for 720 × 480 pixels. Not thread-safe; copies share the plate: one for each thread.
+/// same sprite in any order. A pixel is I = α F + (1 − α) B with the clean plate's B in the light of the frame:
+/// 1. Squares of 2 × 2 pixels show the actor when |ΔI|² exceeds the noise, shadows on the background left aside, next
+///    to squares that do so clearly; loose specks and holes that are no background are cleared up.
+/// 2. At the rim F is carried outwards from the inside (over ± 4 and ± 8 pixels) and α follows (unmixed_alpha()).
+///    Further inside the actor is opaque.
+/// 3. F loses the screen's light that is on it, measured against the colour deeper inside (spill_share()); at the rim
+///    what is too green for that is partly transparent.
+/// Cost: about 1 ms for 720 × 480 pixels; nothing is allocated once buffers have grown. Not thread-safe; copies share
+/// the plate: one for each thread.
 class Keyer {
  public:
   /// garbage: what never is the actor; empty = nothing. Throws InvalidInput when sizes differ or options are wrong.
