@@ -15,13 +15,12 @@
 #include "motex/core/quantile.h"
 #include "motex/core/wide.h"
 #include "motex/people/cut_smoothness.h"
-#include "motex/people/mask_kernels.h"
 
 namespace motex {
 namespace {
 
 constexpr int kBlock = 16;  // frames each way of which one cut is kept
-constexpr int kTileFrames = MaskKernels::kTileFrames;
+constexpr int kTileFrames = kMaskTileFrames;
 constexpr int kTileBlocks = kTileFrames / kBlock;
 constexpr int kMaxMaskSum = 2 * kMaskBits / 8;  // of two frames
 constexpr double kSmoothnessShare = 0.5;        // a smoothness of 1 against the largest distance of masks

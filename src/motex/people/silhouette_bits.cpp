@@ -10,12 +10,11 @@
 #include "motex/core/error.h"
 #include "motex/core/parallel.h"
 #include "motex/core/wide.h"
-#include "motex/people/mask_kernels.h"
 
 namespace motex {
 namespace {
 
-constexpr int kTileBlocks = MaskKernels::kTileFrames / 8;
+constexpr int kTileBlocks = kMaskTileFrames / 8;
 
 /// Pixels of a sprite's row or column that the cells look at: two a cell, −1 outside.
 std::vector<int> sample_places(double first, double cell, int num_cells, int sprite_first, int size) {
@@ -83,7 +82,7 @@ MaskSet::MaskSet(const std::vector<std::vector<MaskBits>>& alignments) {
   num_frames_ = static_cast<int>(alignments[0].size());
   for (const std::vector<MaskBits>& masks : alignments) {
     if (masks.size() != alignments[0].size()) throw InvalidInput("each alignment of masks needs one a frame");
-    std::vector<Block>& blocks = alignments_.emplace_back((masks.size() + 7) / 8);
+    std::vector<HammingBlock>& blocks = alignments_.emplace_back((masks.size() + 7) / 8);
     for (std::size_t f = 0; f < masks.size(); ++f)
       for (std::size_t w = 0; w < kMaskWords; ++w) blocks[f / 8].words[w][f % 8] = masks[f][w];
   }
@@ -92,7 +91,7 @@ MaskSet::MaskSet(const std::vector<std::vector<MaskBits>>& alignments) {
 int MaskSet::distance(int a, int b) const {
   const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
   int least = kMaskBits + 1;
-  for (const std::vector<Block>& blocks : alignments_) {
+  for (const std::vector<HammingBlock>& blocks : alignments_) {
     int sum = 0;
     for (std::size_t w = 0; w < kMaskWords; ++w)
       sum += std::popcount(blocks[i / 8].words[w][i % 8] ^ blocks[j / 8].words[w][j % 8]);
@@ -102,7 +101,7 @@ int MaskSet::distance(int a, int b) const {
 }
 
 int MaskSet::num_tiles() const {
-  const int side = (num_frames_ + MaskKernels::kTileFrames - 1) / MaskKernels::kTileFrames;
+  const int side = (num_frames_ + kMaskTileFrames - 1) / kMaskTileFrames;
   return side * (side + 1) / 2;
 }
 
@@ -113,7 +112,7 @@ void MaskSet::visit_bands(const std::function<void(int tile, const MaskBand& ban
   std::vector<std::array<int, 2>> tiles;
   for (int r = 0; r < num_blocks; r += kTileBlocks)
     for (int c = r; c < num_blocks; c += kTileBlocks) tiles.push_back({r, c});
-  const MaskKernels::Count count = MaskKernels::best();
+  const HammingKernels::Count count = HammingKernels::best();
   parallel_for(jobs, static_cast<int>(tiles.size()), [&](int tile) {
     const auto [first_row, first_column] = tiles[static_cast<std::size_t>(tile)];
     const int more = kTileBlocks + (overlap ? 1 : 0);
@@ -124,7 +123,7 @@ void MaskSet::visit_bands(const std::function<void(int tile, const MaskBand& ban
       const int num = end_column - column, stride = 8 * more;
       if (num == 0) continue;
       for (std::size_t a = 0; a < alignments_.size(); ++a) {
-        const Block* blocks = alignments_[a].data();
+        const HammingBlock* blocks = alignments_[a].data();
         count(blocks + row, blocks + column, num, (a == 0 ? distances : other).data(), stride);
         if (a > 0)
           for (std::size_t i = 0; i < other.size(); ++i) distances[i] = std::min(distances[i], other[i]);
@@ -177,8 +176,8 @@ std::vector<NearestMask> MaskSet::nearest(int apart, int jobs) const {
         Tile& tile = tiles[static_cast<std::size_t>(t)];
         if (tile.first_row < 0) {
           tile.first_row = band.first_row, tile.first_column = band.first_column;
-          tile.columns = {std::vector<std::uint16_t>(MaskKernels::kTileFrames, 0xffff),
-                          std::vector<std::uint16_t>(MaskKernels::kTileFrames)};
+          tile.columns = {std::vector<std::uint16_t>(kMaskTileFrames, 0xffff),
+                          std::vector<std::uint16_t>(kMaskTileFrames)};
         }
         for (int r = 0; r < std::min(8, num_frames_ - band.first_row); ++r) {
           const int row = band.first_row + r, skip = std::max(0, row + apart - band.first_column);
@@ -230,6 +229,6 @@ std::vector<MaskPair> MaskSet::pairs_within(int limit, int apart, int jobs) cons
   return all;
 }
 
-const char* mask_instructions() { return MaskKernels::name(); }
+const char* mask_instructions() { return HammingKernels::name(); }
 
 }  // namespace motex

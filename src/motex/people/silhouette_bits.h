@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "motex/core/hamming_blocks.h"
 #include "motex/core/job.h"
 #include "motex/people/silhouette.h"
 #include "motex/people/sprite.h"
@@ -17,6 +18,7 @@ namespace motex {
 /// A silhouette as 2,048 bits: 64 rows of 32 cells, row by row from the top left, two rows a word; a cell is set where
 /// at least half of it is covered. The fast filter before pictures are compared; [PT04] section 3.1 compares pictures.
 constexpr int kMaskColumns = 32, kMaskRows = 64, kMaskWords = 32, kMaskBits = 2048;
+constexpr int kMaskTileFrames = 512;  ///< 128 KiB of masks: they stay in the second-level cache
 using MaskBits = std::array<std::uint64_t, kMaskWords>;
 
 /// How the cells lie on a frame. kBox: the bounding box is stretched to the grid, so that place, size and aspect are
@@ -84,13 +86,8 @@ class MaskSet {
   std::vector<MaskPair> pairs_within(int limit, int apart = 1, int jobs = 0) const;
 
  private:
-  struct alignas(64) Block {
-    std::array<std::array<std::uint64_t, 8>, kMaskWords> words;  ///< [word][frame]
-  };
-  friend struct MaskKernels;
-
   int num_frames_ = 0;
-  std::vector<std::vector<Block>> alignments_;
+  std::vector<std::vector<HammingBlock>> alignments_;
 };
 
 /// Which instructions count the bits here: "AVX-512", "AVX2" or "portable".

@@ -8,7 +8,6 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
-#include "motex/people/mask_kernels.h"
 #include "motex/people/measure_silhouette.h"
 
 namespace motex {
@@ -68,16 +67,16 @@ TEST(MaskSet, EveryKindOfInstructionCountsTheSame) {
     for (int b = 0; b < 40; ++b)
       EXPECT_EQ(set.distance(a, b),
                 mask_distance(masks[static_cast<std::size_t>(a)], masks[static_cast<std::size_t>(b)]));
-  std::vector<MaskKernels::Count> kernels{MaskKernels::portable};
+  std::vector<HammingKernels::Count> kernels{HammingKernels::portable};
 #if defined(__x86_64__)
-  if (MaskKernels::has_avx2()) kernels.push_back(MaskKernels::avx2);
-  if (MaskKernels::has_avx512()) kernels.push_back(MaskKernels::avx512);
+  if (HammingKernels::has_avx2()) kernels.push_back(HammingKernels::avx2);
+  if (HammingKernels::has_avx512()) kernels.push_back(HammingKernels::avx512);
 #endif
-  std::vector<MaskKernels::Block> blocks(3);
+  std::vector<HammingBlock> blocks(3);
   for (std::size_t f = 0; f < 24; ++f)
     for (std::size_t w = 0; w < kMaskWords; ++w)
       blocks[f / 8].words[w][f % 8] = f == 5 ? ~std::uint64_t{0} : f == 6 ? 0 : masks[f][w];
-  for (const MaskKernels::Count count : kernels) {
+  for (const HammingKernels::Count count : kernels) {
     std::vector<std::uint16_t> distances(8 * 16);
     count(blocks.data(), blocks.data() + 1, 2, distances.data(), 16);
     for (std::size_t r = 0; r < 8; ++r)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-#include "motex/people/mask_kernels.h"
+#include "motex/core/hamming_blocks.h"
 
 #include <bit>
 
@@ -10,12 +10,12 @@
 
 namespace motex {
 
-void MaskKernels::portable(const Block* row, const Block* columns, int num_columns, std::uint16_t* distances,
-                           int stride) {
+void HammingKernels::portable(const HammingBlock* row, const HammingBlock* columns, int num_columns,
+                              std::uint16_t* distances, int stride) {
   for (int b = 0; b < num_columns; ++b)
     for (std::size_t r = 0; r < 8; ++r) {
       std::array<int, 8> sums{};
-      for (std::size_t w = 0; w < kMaskWords; ++w)
+      for (std::size_t w = 0; w < HammingBlock::kWords; ++w)
         for (std::size_t c = 0; c < 8; ++c) sums[c] += std::popcount(row->words[w][r] ^ columns[b].words[w][c]);
       for (std::size_t c = 0; c < 8; ++c)
         distances[r * static_cast<std::size_t>(stride) + static_cast<std::size_t>(8 * b) + c] =
@@ -26,8 +26,8 @@ void MaskKernels::portable(const Block* row, const Block* columns, int num_colum
 #if defined(__x86_64__)
 
 // Half bytes looked up in a table; bytes hold up to 16 words before they are added up.
-__attribute__((target("avx2"))) void MaskKernels::avx2(const Block* row, const Block* columns, int num_columns,
-                                                       std::uint16_t* distances, int stride) {
+__attribute__((target("avx2"))) void HammingKernels::avx2(const HammingBlock* row, const HammingBlock* columns,
+                                                          int num_columns, std::uint16_t* distances, int stride) {
   const __m256i table =
       _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4);
   const __m256i low = _mm256_set1_epi8(15), zero = _mm256_setzero_si256();
@@ -35,7 +35,7 @@ __attribute__((target("avx2"))) void MaskKernels::avx2(const Block* row, const B
     for (std::size_t r = 0; r < 8; ++r)
       for (std::size_t half = 0; half < 2; ++half) {
         __m256i sum = zero;
-        for (std::size_t first = 0; first < kMaskWords; first += 16) {
+        for (std::size_t first = 0; first < HammingBlock::kWords; first += 16) {
           __m256i bytes = zero;
           for (std::size_t w = first; w < first + 16; ++w) {
             const __m256i column = _mm256_load_si256(reinterpret_cast<const __m256i*>(&columns[b].words[w][4 * half]));
@@ -56,13 +56,14 @@ __attribute__((target("avx2"))) void MaskKernels::avx2(const Block* row, const B
 }
 
 // Eight rows against eight columns: 64 distances in eight registers.
-__attribute__((target("avx512f,avx512vpopcntdq"))) void MaskKernels::avx512(const Block* row, const Block* columns,
-                                                                            int num_columns, std::uint16_t* distances,
-                                                                            int stride) {
+__attribute__((target("avx512f,avx512vpopcntdq"))) void HammingKernels::avx512(const HammingBlock* row,
+                                                                               const HammingBlock* columns,
+                                                                               int num_columns,
+                                                                               std::uint16_t* distances, int stride) {
   for (int b = 0; b < num_columns; ++b) {
     __m512i sums[8];  // NOLINT(modernize-avoid-c-arrays): std::array of vectors drops their alignment attribute
     for (__m512i& sum : sums) sum = _mm512_setzero_si512();
-    for (std::size_t w = 0; w < kMaskWords; ++w) {
+    for (std::size_t w = 0; w < HammingBlock::kWords; ++w) {
       const __m512i column = _mm512_load_si512(columns[b].words[w].data());
       for (std::size_t r = 0; r < 8; ++r) {
         const __m512i differ = _mm512_xor_si512(column, _mm512_set1_epi64(static_cast<std::int64_t>(row->words[w][r])));
@@ -76,20 +77,20 @@ __attribute__((target("avx512f,avx512vpopcntdq"))) void MaskKernels::avx512(cons
   }
 }
 
-bool MaskKernels::has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
-bool MaskKernels::has_avx512() {
+bool HammingKernels::has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+bool HammingKernels::has_avx512() {
   return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vpopcntdq") != 0;
 }
-MaskKernels::Count MaskKernels::best() { return has_avx512() ? avx512 : has_avx2() ? avx2 : portable; }
+HammingKernels::Count HammingKernels::best() { return has_avx512() ? avx512 : has_avx2() ? avx2 : portable; }
 
 #else
 
-bool MaskKernels::has_avx2() { return false; }
-bool MaskKernels::has_avx512() { return false; }
-MaskKernels::Count MaskKernels::best() { return portable; }
+bool HammingKernels::has_avx2() { return false; }
+bool HammingKernels::has_avx512() { return false; }
+HammingKernels::Count HammingKernels::best() { return portable; }
 
 #endif
 
-const char* MaskKernels::name() { return has_avx512() ? "AVX-512" : has_avx2() ? "AVX2" : "portable"; }
+const char* HammingKernels::name() { return has_avx512() ? "AVX-512" : has_avx2() ? "AVX2" : "portable"; }
 
 }  // namespace motex
