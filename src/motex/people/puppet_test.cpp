@@ -23,8 +23,8 @@ PuppetPose heap(double x, double y, double pixels_per_metre) {
 TEST(Puppet, RefusesFramesWithoutPixels) { EXPECT_THROW(draw_puppet(heap(1, 1, 10), {}, 0, 10), InvalidInput); }
 
 TEST(Puppet, AlphaIsTheAreaOfTheFigure) {
-  // The widest part is the trunk's 0.13 m.
-  const double radius = 0.13 * 200;
+  // A limb without length is a disc of its first radius; the head's 0.115 m is the largest.
+  const double radius = 0.115 * 200;
   const Sprite sprite = draw_puppet(heap(50.3, 40.6, 200), {}, 100, 80);
   double area = 0, x = 0;
   for (int row = 0; row < sprite.height; ++row)
@@ -49,7 +49,9 @@ TEST(Puppet, SpillColoursTheRimOnly) {
   const PuppetPose pose = heap(50, 40, 200);
   const Sprite clean = draw_puppet(pose, {}, 100, 80),
                spilled = draw_puppet(pose, {}, 100, 80, {{0, 255, 0, 255}, 0.4});
-  EXPECT_GT(spilled.at(1, spilled.height / 2)[1], clean.at(1, clean.height / 2)[1] + 10);
+  int rim = 0;
+  while (clean.at(rim, clean.height / 2)[3] < 255) ++rim;
+  EXPECT_GT(spilled.at(rim, spilled.height / 2)[1], clean.at(rim, clean.height / 2)[1] + 10);
   const PremultipliedRgba &a = clean.at(clean.width / 2, clean.height / 2),
                           &b = spilled.at(clean.width / 2, clean.height / 2);
   EXPECT_NEAR(a[1], b[1], 3);
