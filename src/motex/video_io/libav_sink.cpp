@@ -46,7 +46,7 @@ struct Recipe {
 
 // libx264's macroblock tree reads memory that nobody wrote: bytes would differ from run to run.
 constexpr Recipe kRecipes[] = {
-    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P, "crf=16:preset=medium:mbtree=0",
+    {".mp4", "mp4", "libx264", AV_PIX_FMT_YUV420P, AV_PIX_FMT_NONE, AV_PIX_FMT_YUV444P, "crf=18:preset=medium:mbtree=0",
      "crf=10:preset=veryfast:mbtree=0:g=15:aq-mode=0:psy=0"},
     {".webm", "webm", "libvpx-vp9", AV_PIX_FMT_YUV420P, AV_PIX_FMT_YUVA420P, AV_PIX_FMT_NONE,
      "crf=18:b=0:deadline=good:cpu-used=4:auto-alt-ref=0"},
