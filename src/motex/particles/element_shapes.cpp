@@ -353,6 +353,25 @@ ShapeGrid::ShapeGrid(const std::vector<float>& values) : reach_(1), points_(valu
       point.along_u = (faded[index_of(row, column + 1)] - faded[index_of(row, column - 1)]) / kTwice;
       point.along_v = (faded[index_of(row + 1, column)] - faded[index_of(row - 1, column)]) / kTwice;
     }
+  find_spans();
+}
+
+void ShapeGrid::find_spans() {
+  const auto is_empty = [&](int row, int column) {
+    const Point& p = points_[index_of(row, column)];
+    return p.value == 0 && p.along_u == 0 && p.along_v == 0;
+  };
+  for (int row = 0; row + 1 < kSide; ++row) {
+    int first = kSide, last = -1;
+    for (int column = 0; column < kSide; ++column) {
+      if (is_empty(row, column) && is_empty(row + 1, column)) continue;
+      first = std::min(first, column);
+      last = column;
+    }
+    // Between two points: up to the neighbours of those that are something.
+    spans_[static_cast<std::size_t>(row)] = {last < 0 ? kReach : grid_value(first - 1),
+                                             last < 0 ? -kReach : grid_value(last + 1)};
+  }
 }
 
 ElementShapes learn_element_shapes(const std::vector<Plane>& residuals, const std::vector<std::vector<Blob>>& blobs,

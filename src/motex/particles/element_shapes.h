@@ -18,7 +18,7 @@ class ShapeGrid {
   static constexpr double kReach = 5;  ///< scales to each side of the place
   static constexpr double kSpacing = 2 * kReach / (kSide - 1);
 
-  ShapeGrid() : points_(static_cast<std::size_t>(kSide) * kSide) {}
+  ShapeGrid() : points_(static_cast<std::size_t>(kSide) * kSide) { find_spans(); }
   /// values: kSide² of them, row by row. What does not hang together with the place (other elements) is left out; faded
   /// out at the rim.
   explicit ShapeGrid(const std::vector<float>& values);
@@ -28,6 +28,12 @@ class ShapeGrid {
   };
   /// Nothing is further from the place, scales.
   double reach() const { return reach_; }
+  /// Smallest and largest u that anything can be at, at this v; nothing there: smallest > largest.
+  std::array<double, 2> span(double v) const {
+    const double row = (v + kReach) / kSpacing;
+    if (!(row >= 0 && row < kSide - 1)) return {kReach, -kReach};
+    return spans_[static_cast<std::size_t>(row)];
+  }
   Point at(double u, double v) const {
     const double column = (u + kReach) / kSpacing, row = (v + kReach) / kSpacing;
     if (!(column >= 0 && row >= 0 && column < kSide - 1 && row < kSide - 1)) return {};
@@ -42,8 +48,11 @@ class ShapeGrid {
   }
 
  private:
+  void find_spans();
+
   double reach_ = kReach;
   std::vector<Point> points_;
+  std::array<std::array<double, 2>, kSide - 1> spans_{};  ///< between a row and the next
 };
 
 /// An element with parts in one frame: amplitude · shape((p − (x, y)) / e^{log_scale}).

@@ -44,28 +44,37 @@ ShapeFitter::Box ShapeFitter::box_of(const ShapedElement& element) const {
   return box;
 }
 
-void ShapeFitter::paint(const ShapedElement& element, float sign) {
+template <typename Visit>
+void ShapeFitter::for_each_pixel(const ShapedElement& element, const Visit& visit) const {
   const Box box = box_of(element);
-  const double inverse = std::exp(-element.log_scale);
+  const double scale = std::exp(element.log_scale), inverse = std::exp(-element.log_scale);
   const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
+  for (int y = box.top; y < box.bottom; ++y) {
+    const double v = (y - element.y) * inverse;
+    const auto [low, high] = shape.span(v);
+    if (low > high) continue;
+    const double first = std::max(element.x + low * scale, static_cast<double>(box.left)),
+                 last = std::min(element.x + high * scale, box.right - 1.0);
+    for (int x = static_cast<int>(first); x <= last; ++x) {
+      const double u = (x - element.x) * inverse;
+      visit(x, y, u, v, shape.at(u, v));
+    }
+  }
+}
+
+void ShapeFitter::paint(const ShapedElement& element, float sign) {
   const float weight = sign * static_cast<float>(element.amplitude);
-  for (int y = box.top; y < box.bottom; ++y)
-    for (int x = box.left; x < box.right; ++x)
-      left_.row(y)[x] -= weight * shape.at((x - element.x) * inverse, (y - element.y) * inverse).value;
+  for_each_pixel(element,
+                 [&](int x, int y, double, double, const ShapeGrid::Point& p) { left_.row(y)[x] -= weight * p.value; });
 }
 
 /// Change of the cost when the element is added to what there is.
 double ShapeFitter::cost(const ShapedElement& element, const ShapedPrior& prior) const {
-  const Box box = box_of(element);
-  const double inverse = std::exp(-element.log_scale);
-  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
   double sum = 0;
-  for (int y = box.top; y < box.bottom; ++y)
-    for (int x = box.left; x < box.right; ++x) {
-      const double value =
-          element.amplitude * static_cast<double>(shape.at((x - element.x) * inverse, (y - element.y) * inverse).value);
-      sum += value * (value - 2 * static_cast<double>(left_.at(x, y)));
-    }
+  for_each_pixel(element, [&](int x, int y, double, double, const ShapeGrid::Point& p) {
+    const double value = element.amplitude * static_cast<double>(p.value);
+    sum += value * (value - 2 * static_cast<double>(left_.at(x, y)));
+  });
   return sum / (noise_ * noise_) + prior_cost(element, prior);
 }
 
@@ -73,22 +82,16 @@ double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int 
   double now = cost(element, prior), damping = 1e-3;
   Eigen::Matrix4d curvature = Eigen::Matrix4d::Identity();
   for (int step = 0; step < num_steps; ++step) {
-    const Box box = box_of(element);
     const double inverse = std::exp(-element.log_scale), a = element.amplitude;
-    const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
     curvature.setZero();
     Eigen::Vector4d slope = Eigen::Vector4d::Zero();
-    for (int y = box.top; y < box.bottom; ++y)
-      for (int x = box.left; x < box.right; ++x) {
-        const double u = (x - element.x) * inverse, v = (y - element.y) * inverse;
-        const ShapeGrid::Point p = shape.at(u, v);
-        const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
-        const auto value = static_cast<double>(p.value);
-        const Eigen::Vector4d d(-a * inverse * along_u, -a * inverse * along_v, -a * (u * along_u + v * along_v),
-                                value);
-        curvature.noalias() += d * d.transpose();
-        slope += d * (static_cast<double>(left_.at(x, y)) - a * value);
-      }
+    for_each_pixel(element, [&](int x, int y, double u, double v, const ShapeGrid::Point& p) {
+      const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
+      const auto value = static_cast<double>(p.value);
+      const Eigen::Vector4d d(-a * inverse * along_u, -a * inverse * along_v, -a * (u * along_u + v * along_v), value);
+      curvature.noalias() += d * d.transpose();
+      slope += d * (static_cast<double>(left_.at(x, y)) - a * value);
+    });
     curvature /= noise_ * noise_;
     slope /= noise_ * noise_;
     const std::array<double, 4> values = values_of(element);
@@ -200,29 +203,20 @@ void ShapeFitter::fit(int num_sweeps) {
 double ShapeFitter::gain(std::size_t idx) const {
   // Without it the residual is left + element: −cost of adding it there.
   const ShapedElement& e = elements_[idx];
-  const Box box = box_of(e);
-  const double inverse = std::exp(-e.log_scale);
-  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
   double sum = 0;
-  for (int y = box.top; y < box.bottom; ++y)
-    for (int x = box.left; x < box.right; ++x) {
-      const double value = e.amplitude * static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
-      sum += value * (value + 2 * static_cast<double>(left_.at(x, y)));
-    }
+  for_each_pixel(e, [&](int x, int y, double, double, const ShapeGrid::Point& p) {
+    const double value = e.amplitude * static_cast<double>(p.value);
+    sum += value * (value + 2 * static_cast<double>(left_.at(x, y)));
+  });
   return sum / (noise_ * noise_);
 }
 
 double ShapeFitter::energy(std::size_t idx) const {
   const ShapedElement& e = elements_[idx];
-  const Box box = box_of(e);
-  const double inverse = std::exp(-e.log_scale);
-  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
   double sum = 0;
-  for (int y = box.top; y < box.bottom; ++y)
-    for (int x = box.left; x < box.right; ++x) {
-      const auto value = static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
-      sum += value * value;
-    }
+  for_each_pixel(e, [&](int, int, double, double, const ShapeGrid::Point& p) {
+    sum += static_cast<double>(p.value) * static_cast<double>(p.value);
+  });
   return sum * e.amplitude * e.amplitude / (noise_ * noise_);
 }
 
@@ -233,19 +227,15 @@ double ShapeFitter::error() const {
 }
 
 ShapeFitter::UnderOne ShapeFitter::look_under(const ShapedElement& e) const {
-  const Box box = box_of(e);
-  const double inverse = std::exp(-e.log_scale);
-  const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(e.shape)];
   UnderOne out;
-  for (int y = box.top; y < box.bottom; ++y)
-    for (int x = box.left; x < box.right; ++x) {
-      const auto s = static_cast<double>(shape.at((x - e.x) * inverse, (y - e.y) * inverse).value);
-      if (s < kUnder) continue;
-      const double value = e.amplitude * s, rest = static_cast<double>(left_.at(x, y));
-      out.light += (value + rest) * (value + rest);
-      out.left += rest * rest;
-      out.num += 1;
-    }
+  for_each_pixel(e, [&](int x, int y, double, double, const ShapeGrid::Point& p) {
+    const auto s = static_cast<double>(p.value);
+    if (s < kUnder) return;
+    const double value = e.amplitude * s, rest = static_cast<double>(left_.at(x, y));
+    out.light += (value + rest) * (value + rest);
+    out.left += rest * rest;
+    out.num += 1;
+  });
   return out;
 }
 

@@ -45,6 +45,9 @@ class ShapeFitter {
     int left, top, right, bottom;
   };
   Box box_of(const ShapedElement& element) const;
+  /// visit(x, y, u, v, what the shape is there) at every pixel that the element may touch.
+  template <typename Visit>
+  void for_each_pixel(const ShapedElement& element, const Visit& visit) const;
   void paint(const ShapedElement& element, float sign);
   struct UnderOne {
     double light = 0, left = 0, num = 0;
