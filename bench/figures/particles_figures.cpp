@@ -119,7 +119,7 @@ const Scene& Figures::snow_learned() {
 }
 
 const Scene& Figures::birds_learned() {
-  if (!birds_) birds_ = motex::bench::bird_scene(data_);
+  if (!birds_) birds_ = motex::bench::bird_scene();
   return *birds_;
 }
 
@@ -230,7 +230,7 @@ void Figures::observed_and_synthesized(int figure, const Scene& scene, const mot
 
 void Figures::birds() {
   if (wants({5, 6})) {
-    const Scene flapping = motex::bench::flapping_scene(data_);
+    const Scene flapping = motex::bench::flapping_scene();
     if (wants({5})) wing_states(flapping);
     if (wants({6})) birds_in_space(flapping);
   }

@@ -180,8 +180,8 @@ inline void film_and_strip(PeopleClip clip, const std::string& name, double secs
   }
 }
 
-/// people_experiment_1.png … 3.png; the films go to a temporary folder, which is printed. A short clip needs more than
-/// four transitions for so long a film.
+/// people_experiment_1.png … 3.png; the films, and the strips of clips that may not be shown in the repository, go to a
+/// temporary folder, which is printed. A short clip needs more than four transitions for so long a film.
 inline void draw_experiments(const std::string& clips, const std::filesystem::path& out, const std::set<int>& wanted) {
   const std::filesystem::path films = std::filesystem::temp_directory_path() / "motex_people_films";
   std::filesystem::create_directories(films);
@@ -196,7 +196,7 @@ inline void draw_experiments(const std::string& clips, const std::filesystem::pa
     if (!wanted.empty() && !wanted.contains(100 + number)) continue;
     const bool dancer = std::string(one.clip) == "dancer1";
     film_and_strip(dancer ? load_dancer(clips) : load_keyed(clips + "/" + one.clip), one.clip, one.secs,
-                   out / (name + ".png"), films / (name + ".mp4"));
+                   (dancer ? out : films) / (name + ".png"), films / (name + ".mp4"));
   }
 }
 
