@@ -216,7 +216,8 @@ Command people_motifs() {
   return make_command<Motifs>(
       {"people motifs", "the actions that repeat in footage, or in a series of measurements",
        "Every length from --min-secs to --max-secs is tried unless --window says one. Distances are Euclidean between "
-       "z-normalised windows (root mean square over signals), divided by √window; those of --profile are not divided, "
+       "z-normalised windows (several signals by one deviation), divided by √window; those of --profile are not "
+       "divided, "
        "and windows up to a quarter of the window apart are not compared there. Frames count from 0.",
        "motex people motifs actor.mp4 --picture alphabet.png\n"
        "motex people motifs actor.motex --json\n"

@@ -29,8 +29,12 @@ DiagonalArrays diagonal_arrays(const SeriesWindows& windows) {
   out.stride = num_windows + kDiagonals;
   out.value_stride = windows.num_frames + kDiagonals;
   const auto size = static_cast<std::size_t>(out.stride) * static_cast<std::size_t>(windows.num_signals);
-  for (std::vector<double>* array : {&out.f, &out.g, &out.norm, &out.mean}) array->assign(size, 0);
+  for (std::vector<double>* array : {&out.f, &out.g, &out.mean}) array->assign(size, 0);
+  out.norm.assign(static_cast<std::size_t>(out.stride), 0);
   out.values.assign(static_cast<std::size_t>(out.value_stride) * static_cast<std::size_t>(windows.num_signals), 0);
+  for (int i = 0; i < num_windows; ++i)
+    if (windows.usable[static_cast<std::size_t>(i)] != 0 && windows.deviation(i) > 0)
+      out.norm[static_cast<std::size_t>(i)] = 1 / (windows.deviation(i) * std::sqrt(static_cast<double>(m)));
   for (int s = 0; s < windows.num_signals; ++s) {
     const double* x = windows.signal(s);
     const std::size_t at = static_cast<std::size_t>(s) * static_cast<std::size_t>(out.stride);
@@ -39,9 +43,6 @@ DiagonalArrays diagonal_arrays(const SeriesWindows& windows) {
     for (int i = 0; i < num_windows; ++i) {
       const std::size_t k = at + static_cast<std::size_t>(i);
       out.mean[k] = windows.mean(s, i);
-      const double deviation = windows.deviation(s, i);
-      if (windows.usable[static_cast<std::size_t>(i)] != 0 && deviation > 0)
-        out.norm[k] = 1 / (deviation * std::sqrt(static_cast<double>(m) * windows.num_signals));
       if (i == 0) continue;
       out.f[k] = (x[i + m - 1] - x[i - 1]) / 2;
       out.g[k] = (x[i + m - 1] - windows.mean(s, i)) + (x[i - 1] - windows.mean(s, i - 1));

@@ -13,9 +13,8 @@ namespace motex {
 struct MatrixProfile {
   int window = 0;                ///< m, frames
   int exclusion = 0;             ///< windows up to so many frames apart are not compared
-  std::vector<double> distance;  ///< Euclidean, both z-normalised, 0 … 2 √m; several signals: root of the mean square.
-                                 ///< Infinite where nothing can be compared
-  std::vector<int> nearest;  ///< start of the one that resembles it most; −1 = none
+  std::vector<double> distance;  ///< Euclidean, both z-normalised, 0 … 2 √m; infinite where nothing can be compared
+  std::vector<int> nearest;      ///< start of the one that resembles it most; −1 = none
 };
 
 /// Two windows whose starts lie up to so many frames apart are trivial matches of one another: a quarter of the window,

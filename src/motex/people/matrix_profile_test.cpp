@@ -52,6 +52,33 @@ TEST(MatrixProfile, EqualsTheDefinition) {
   }
 }
 
+/// From the series itself, without SeriesWindows: all signals of a window by one deviation.
+double defined_distance(const FrameMatrix& x, int a, int b, int m) {
+  const auto centred = [&](int start) {
+    const Matrix window = x.middleRows(start, m);
+    return Matrix(window.rowwise() - window.colwise().mean());
+  };
+  const Matrix first = centred(a), second = centred(b);
+  return std::sqrt(static_cast<double>(m)) * (first / first.norm() - second / second.norm()).norm();
+}
+
+TEST(MatrixProfile, SeveralSignalsAreNormalisedByOneDeviation) {
+  FrameMatrix x = wandering(300, 3, 12);
+  x.col(1) *= 4;
+  x.col(2) *= 0.01;  // hardly counts
+  constexpr int kWindow = 16, kExclusion = 5;
+  const MatrixProfile profile = matrix_profile(series_windows(x, kWindow), kExclusion);
+  for (int i = 0; i + kWindow <= 300; ++i) {
+    double best = std::numeric_limits<double>::infinity();
+    for (int j = 0; j + kWindow <= 300; ++j)
+      if (std::abs(i - j) > kExclusion) best = std::min(best, defined_distance(x, i, j, kWindow));
+    EXPECT_NEAR(profile.distance[static_cast<std::size_t>(i)], best, 1e-7) << i;
+  }
+  FrameMatrix without = x;
+  without.col(2).setZero();
+  EXPECT_NEAR(series_windows(without, kWindow).distance(20, 90), series_windows(x, kWindow).distance(20, 90), 1e-3);
+}
+
 TEST(MatrixProfile, ShortSeriesOfFewWindows) {
   for (const int num_frames : {12, 15, 24, 40}) {
     const SeriesWindows windows = series_windows(wandering(num_frames, 1, 9), 12);

@@ -26,6 +26,7 @@ constexpr double kLevelSecs = 0.8;
 constexpr double kDriftSecs = 5;
 constexpr double kLeastActive = 0.3;
 constexpr double kLeastActiveSeed = 0.8, kLeastActiveWhole = 0.6;  // of a window whose length was not asked for
+constexpr double kLeastActiveCut = 0.6;                            // of a window that cuts what happens in two
 constexpr double kWhole = 0.85;
 constexpr double kLeastBend = 0.1;
 constexpr double kStraight = 0.8;
@@ -96,8 +97,8 @@ struct Seed {
   int count = 0;               ///< occurrences within R
 };
 
-/// Which windows may be an action: enough happens in them, and (whole_only) they hold whatever they touch of what
-/// happens between two idle stretches nearly whole.
+/// Which windows may be an action: enough happens in them, and they hold whatever they touch of what happens between
+/// two idle stretches nearly whole or (not whole_only) little idleness beside.
 class ActionWindows {
  public:
   ActionWindows(std::vector<unsigned char> active, int shortest_pause) : sums_(active.size() + 1, 0) {
@@ -127,7 +128,7 @@ class ActionWindows {
   bool allow(int start, int length, bool whole_only, double least_active) const {
     const int inside = sums_[at(start + length)] - sums_[at(start)];
     if (inside < least_active * length) return false;
-    if (!whole_only) return true;
+    if (!whole_only && inside >= kLeastActiveCut * length) return true;
     const int from = active_[at(start)] != 0 ? first_[at(start)] : start;
     const int to = active_[at(start + length - 1)] != 0 ? last_[at(start + length - 1)] : start + length;
     return inside >= kWhole * (sums_[at(to)] - sums_[at(from)]);
@@ -181,20 +182,17 @@ void leave_out_idle(SeriesWindows& windows, const Search& search) {
   for (int i = 0; i < windows.num_windows; ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (windows.usable[k] == 0) continue;
-    double bend = 0;
+    double straight = 0;
     for (int s = 0; s < windows.num_signals; ++s) {
-      const double deviation = windows.deviation(s, i);
-      if (deviation == 0) continue;
       double along = 0;
       const double* x = windows.signal(s) + i;
       for (int t = 0; t < m; ++t) along += (t - middle) * x[t];
-      bend += 1 - along * along / (spread * m * deviation * deviation);
+      straight += along * along / spread;
     }
     if (!search.action.allow(i, m, search.whole_only, search.least_active(kLeastActiveSeed)) ||
-        bend < kLeastBend * windows.num_signals) {
+        straight > (1 - kLeastBend) * m * windows.deviation(i) * windows.deviation(i)) {
       windows.usable[k] = 0;
-      for (int s = 0; s < windows.num_signals; ++s)
-        windows.deviations[static_cast<std::size_t>(s) * windows.usable.size() + k] = 0;
+      windows.deviations[k] = 0;
     }
   }
 }
@@ -283,7 +281,7 @@ void leave_each_out(std::vector<Match>& matches, const Seed& members) {
 /// Share of the pattern that a straight line (degree 1) or a parabola (2) explains.
 double explained_by_polynomial(const Pattern& pattern, int degree) {
   const auto m = static_cast<double>(pattern.rows());
-  double sum = 0, count = 0;
+  double sum = 0;
   for (Index s = 0; s < pattern.cols(); ++s) {
     double line = 0, bow = 0, line_norm = 0, bow_norm = 0;
     for (Index t = 0; t < pattern.rows(); ++t) {
@@ -293,11 +291,9 @@ double explained_by_polynomial(const Pattern& pattern, int degree) {
       line_norm += u * u;
       bow_norm += v * v;
     }
-    if (pattern.col(s).squaredNorm() < 0.5) continue;
     sum += line * line / line_norm + (degree > 1 ? bow * bow / bow_norm : 0);
-    count += 1;
   }
-  return count > 0 ? sum / count : 1;
+  return pattern.squaredNorm() > 0.5 ? sum : 1;
 }
 
 bool is_drift(const Pattern& pattern) {
@@ -369,7 +365,7 @@ std::vector<Seed> seeds_of_all_lengths(Search& search, const std::vector<int>& l
     search.backgrounds.clear();
     for (const bool differenced : {false, true})
       search.backgrounds.emplace_back(background_series(search.series, active, window, differenced, kBackgroundFrames),
-                                      std::vector<FrameSpan>{}, search.activity.scale);
+                                      std::vector<FrameSpan>{});
     const std::size_t first = seeds.size();
     seeds.resize(first + starts.size());
     parallel_for(search.job.jobs, static_cast<int>(starts.size()), [&](int k) {
@@ -542,7 +538,7 @@ std::string motif_letter(int idx) {
 MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& options,
                         const std::vector<FrameSpan>& stretches, const JobContext& job) {
   check_options(options);
-  const FrameMatrix series = without_line(given);
+  FrameMatrix series = without_line(given);
   MotifReport report;
   report.windows = lengths(options, static_cast<int>(series.rows()));
   if (report.windows.empty()) return report;
@@ -550,10 +546,11 @@ MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& optio
                                       kShortestWindow, static_cast<int>(series.rows()));
   const Activity activity = find_activity(
       series, level_window, static_cast<int>(std::lround(kDriftSecs * options.frames_per_sec)), stretches);
-  Search search{series, options,  stretches,
-                job,    activity, ActionWindows(activity.active, level_window),
-                false,  0,        {series, stretches, activity.scale},
-                {}};
+  if (series.cols() > 1)  // made comparable, so that one deviation a window will do
+    for (Index s = 0; s < series.cols(); ++s)
+      if (const double scale = activity.scale[static_cast<std::size_t>(s)]; scale > 0) series.col(s) /= scale;
+  Search search{series, options, stretches,           job, activity, ActionWindows(activity.active, level_window),
+                false,  0,       {series, stretches}, {}};
   std::vector<FrameSpan> active;
   for (std::size_t t = 0; t < activity.active.size(); ++t) {
     if (activity.active[t] == 0) continue;

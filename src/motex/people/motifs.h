@@ -53,7 +53,8 @@ struct MotifReport {
 
 /// What repeats in a series (rows = frames, columns = signals). For every length the closest pairs of the exact matrix
 /// profile (idle windows and straight drifts left out) are patterns to start from; a pattern is looked for in the whole
-/// series at 0.82 … 1.22 of its tempo with at most twice or half its amplitude.
+/// series at 0.82 … 1.22 of its tempo with at most twice or half its amplitude. Several signals: each is divided by its
+/// Activity::scale, and a window is z-normalised by the one deviation of all its signals (SeriesWindows).
 ///
 /// R, the number of occurrences c and the significance come from one rule: in a series that moves likewise but repeats
 /// nothing (background_series(), the worse of two kinds) a match at least as close as the c-th comes λ(c) times; R lies

@@ -7,8 +7,9 @@ namespace motex {
 /// Diagonals of the matrix of all pairs of windows that are walked side by side.
 inline constexpr int kDiagonals = 32;
 
-/// Arrays of matrix_profile(): those of signal s begin at s · stride (values: s · value_stride) and have kDiagonals
-/// entries after the last window, where norm is 0 and correlation infinite.
+/// Arrays of matrix_profile(): f, g and mean of signal s begin at s · stride, values at s · value_stride; norm and
+/// correlation are one a window. All have kDiagonals entries after the last window, where norm is 0 and correlation
+/// infinite.
 struct ProfileRows {
   const double *f, *g, *norm, *mean, *values;
   int stride, value_stride, num_signals, window;

@@ -52,10 +52,10 @@ SaxWords sax_words(const SeriesWindows& windows, int word_length, int alphabet) 
   const auto length = static_cast<std::size_t>(word_length);
   out.letters.assign(static_cast<std::size_t>(windows.num_windows) * length, 255);
   for (int start = 0; start < windows.num_windows; ++start) {
-    if (windows.usable[static_cast<std::size_t>(start)] == 0 || windows.deviation(0, start) == 0) continue;
+    if (windows.usable[static_cast<std::size_t>(start)] == 0 || windows.deviation(start) == 0) continue;
     const std::vector<double> means = piecewise_means(windows.signal(0) + start, windows.window, word_length);
     for (std::size_t k = 0; k < length; ++k) {
-      const double z = (means[k] - windows.mean(0, start)) / windows.deviation(0, start);
+      const double z = (means[k] - windows.mean(0, start)) / windows.deviation(start);
       const auto above = std::upper_bound(breakpoints.begin(), breakpoints.end(), z);
       out.letters[static_cast<std::size_t>(start) * length + k] =
           static_cast<std::uint8_t>(above - breakpoints.begin());

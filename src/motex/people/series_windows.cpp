@@ -63,21 +63,18 @@ void copy_centred(const FrameMatrix& series, int s, double* out) {
 }  // namespace
 
 double SeriesWindows::distance(int a, int b) const {
+  if (deviation(a) == 0 || deviation(b) == 0) return std::sqrt(2.0 * window);
+  const double scale_a = 1 / deviation(a), scale_b = 1 / deviation(b);
   double sum = 0;
   for (int s = 0; s < num_signals; ++s) {
-    const double deviation_a = deviation(s, a), deviation_b = deviation(s, b);
-    if (deviation_a == 0 || deviation_b == 0) {
-      sum += 2.0 * window;
-      continue;
-    }
     const double *x = signal(s) + a, *y = signal(s) + b;
-    const double mean_a = mean(s, a), mean_b = mean(s, b), scale_a = 1 / deviation_a, scale_b = 1 / deviation_b;
+    const double mean_a = mean(s, a), mean_b = mean(s, b);
     for (int t = 0; t < window; ++t) {
       const double difference = (x[t] - mean_a) * scale_a - (y[t] - mean_b) * scale_b;
       sum += difference * difference;
     }
   }
-  return std::sqrt(sum / num_signals);
+  return std::sqrt(sum);
 }
 
 SeriesWindows series_windows(const FrameMatrix& series, int window, const std::vector<FrameSpan>& stretches) {
@@ -92,8 +89,7 @@ SeriesWindows series_windows(const FrameMatrix& series, int window, const std::v
   const auto signals = static_cast<std::size_t>(out.num_signals);
   out.values.resize(signals * frames);
   out.means.assign(signals * windows, 0);
-  out.deviations.assign(signals * windows, 0);
-  std::vector<unsigned char> varies(windows, 0);
+  out.deviations.assign(windows, 0);
   for (std::size_t s = 0; s < signals; ++s) {
     double* values = out.values.data() + s * frames;
     copy_centred(series, static_cast<int>(s), values);
@@ -107,13 +103,14 @@ SeriesWindows series_windows(const FrameMatrix& series, int window, const std::v
         largest = std::max(largest, std::abs(x[t]));
       }
       out.means[s * windows + start] = mean;
-      const double deviation = std::sqrt(squares / window);
-      if (out.usable[start] == 0 || !(deviation > kConstant * largest)) continue;
-      out.deviations[s * windows + start] = deviation;
-      varies[start] = 1;
+      const double variance = squares / window;
+      if (out.usable[start] != 0 && std::sqrt(variance) > kConstant * largest) out.deviations[start] += variance;
     }
   }
-  for (std::size_t start = 0; start < windows; ++start) out.usable[start] &= varies[start];
+  for (std::size_t start = 0; start < windows; ++start) {
+    out.deviations[start] = std::sqrt(out.deviations[start]);
+    if (!(out.deviations[start] > 0)) out.usable[start] = 0;
+  }
   return out;
 }
 

@@ -10,12 +10,14 @@
 
 namespace motex {
 
-/// The windows of m frames of a series of S signals, ready to be compared when each is z-normalised, signal by signal:
-///   correlation(i, j) = 1/S Σ_s Σ_t z_s,i(t) z_s,j(t) / m,   distance(i, j)² = 1/S Σ_s ‖z_s,i − z_s,j‖² = 2m (1 −
+/// The windows of m frames of a series of S signals, ready to be compared when each is z-normalised, all its signals
+/// by one deviation, so that a signal counts as much as it moves there and what stands still adds no noise:
+///   z_s,i(t) = (x_s(i + t) − μ_s,i) / σ_i,   σ_i² = Σ_s Σ_t (x_s(i + t) − μ_s,i)² / m,
+///   correlation(i, j) = Σ_s Σ_t z_s,i(t) z_s,j(t) / m,   distance(i, j)² = Σ_s ‖z_s,i − z_s,j‖² = 2m (1 −
 ///   correlation).
-/// A signal that is constant in a window resembles nothing there: its correlation is 0. A window is left out (not
-/// usable) when it holds a number that is not finite, runs over the end of a stretch, or is constant in every signal.
-/// Constant: deviation at most 1e-12 of the largest absolute number in the window.
+/// Signals have to be in comparable units. A window is left out (not usable) when it holds a number that is not finite,
+/// runs over the end of a stretch, or is constant in every signal. Constant: deviation at most 1e-12 of the largest
+/// absolute number in the window.
 struct SeriesWindows {
   int window = 0;       ///< m, frames
   int num_windows = 0;  ///< those that begin at frames 0 … num_windows − 1
@@ -23,14 +25,12 @@ struct SeriesWindows {
   int num_frames = 0;
   std::vector<double> values;  ///< [signal · num_frames + frame], less the signal's mean; gaps hold the value before
   std::vector<double> means;   ///< [signal · num_windows + start], of values
-  std::vector<double> deviations;     ///< the same, √(mean square about the mean); 0 when constant or not usable
+  std::vector<double> deviations;     ///< [start], σ; 0 when constant or not usable
   std::vector<unsigned char> usable;  ///< [start]
 
   const double* signal(int s) const { return values.data() + offset(s, num_frames); }
   double mean(int s, int start) const { return means[offset(s, num_windows) + static_cast<std::size_t>(start)]; }
-  double deviation(int s, int start) const {
-    return deviations[offset(s, num_windows) + static_cast<std::size_t>(start)];
-  }
+  double deviation(int start) const { return deviations[static_cast<std::size_t>(start)]; }
   /// Of two windows, from the numbers themselves; 2m is the square of no resemblance.
   double distance(int a, int b) const;
 

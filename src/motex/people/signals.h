@@ -59,7 +59,8 @@ struct MotifSignals {
 /// mu30, mu21 and mu03, smoothed with 0.04 s (the other moments tell nothing that these do not, measured on eleven
 /// exercises). mu11 and mu30 change sign in the mirror: a kick with the left leg is not one with the right. Each is
 /// multiplied by the inverse of its movement, the root mean square deviation from the mean of windows of two seconds,
-/// and by the share of it that is no noise (third differences); one that is half noise is left out.
+/// and by the share of it that is no noise (third differences); one that is half noise is left out. find_motifs() puts
+/// them into units of its own.
 MotifSignals default_motif_signals(const PeopleTexture& texture);
 /// The paper's mode: the aspect ratio alone, as measured. [PT04] section 2.2
 MotifSignals paper_motif_signals(const PeopleTexture& texture);

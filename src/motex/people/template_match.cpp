@@ -19,12 +19,10 @@ void normalise(Pattern& pattern) {
   for (Index s = 0; s < pattern.cols(); ++s) {
     const double mean = pattern.col(s).mean();
     pattern.col(s).array() -= mean;
-    const double norm = pattern.col(s).norm();
-    if (norm > kFlat * std::abs(mean))
-      pattern.col(s) /= norm;
-    else
-      pattern.col(s).setZero();
+    if (!(pattern.col(s).norm() > kFlat * std::abs(mean))) pattern.col(s).setZero();
   }
+  const double norm = pattern.norm();
+  if (norm > 0) pattern /= norm;
 }
 
 }  // namespace
@@ -42,11 +40,8 @@ Pattern stretched(const Pattern& pattern, int rows) {
   return out;
 }
 
-PatternSearch::PatternSearch(const FrameMatrix& series, const std::vector<FrameSpan>& stretches,
-                             std::vector<double> scale)
-    : num_frames_(static_cast<int>(series.rows())),
-      num_signals_(static_cast<int>(series.cols())),
-      scale_(std::move(scale)) {
+PatternSearch::PatternSearch(const FrameMatrix& series, const std::vector<FrameSpan>& stretches)
+    : num_frames_(static_cast<int>(series.rows())), num_signals_(static_cast<int>(series.cols())) {
   const auto size = static_cast<std::size_t>(num_frames_);
   run_end_.assign(size, 0);
   std::vector<FrameSpan> parts = stretches;
@@ -83,24 +78,16 @@ bool PatternSearch::whole(int start, int length) const {
   return start >= 0 && start + length <= num_frames_ && start + length <= run_end_[static_cast<std::size_t>(start)];
 }
 
-double PatternSearch::deviation(int s, int start, int length) const {
-  const auto k = static_cast<std::size_t>(s), a = static_cast<std::size_t>(start),
-             b = static_cast<std::size_t>(start + length);
-  const double mean = (sums_[k][b] - sums_[k][a]) / length;
-  const double square = (squares_[k][b] - squares_[k][a]) / length;
-  const double variance = square - mean * mean;
-  return variance > kFlat * square ? std::sqrt(variance) : 0;
-}
-
 double PatternSearch::amplitude(int start, int length) const {
+  const auto a = static_cast<std::size_t>(start), b = static_cast<std::size_t>(start + length);
   double sum = 0;
-  for (int s = 0; s < num_signals_; ++s) {
-    const double scale = scale_[static_cast<std::size_t>(s)];
-    if (scale <= 0) continue;
-    const double ratio = deviation(s, start, length) / scale;
-    sum += ratio * ratio;
+  for (std::size_t s = 0; s < values_.size(); ++s) {
+    const double mean = (sums_[s][b] - sums_[s][a]) / length;
+    const double square = (squares_[s][b] - squares_[s][a]) / length;
+    const double variance = square - mean * mean;
+    if (variance > kFlat * square) sum += variance;
   }
-  return std::sqrt(sum / num_signals_);
+  return std::sqrt(sum);
 }
 
 Pattern PatternSearch::pattern(int start, int length, int rows) const {
@@ -118,21 +105,20 @@ void PatternSearch::correlate(const Pattern& pattern, std::vector<double>& out) 
   const double root = std::sqrt(static_cast<double>(m));
   for (int first = 0; first < num_windows; first += kBlock) {
     const int count = std::min(kBlock, num_windows - first);
-    double* sum = out.data() + first;
-    std::fill_n(sum, count, 0.0);
+    dots.fill(0);
     for (int s = 0; s < num_signals_; ++s) {
-      dots.fill(0);
       const double* x = values_[static_cast<std::size_t>(s)].data() + first;
       for (int t = 0; t < m; ++t) {
         const double weight = pattern(t, s);
         for (int i = 0; i < count; ++i) dots[static_cast<std::size_t>(i)] += weight * x[i + t];
       }
-      for (int i = 0; i < count; ++i) {
-        const double norm = deviation(s, first + i, m) * root;
-        if (norm > 0) sum[i] += dots[static_cast<std::size_t>(i)] / norm;
-      }
     }
-    for (int i = 0; i < count; ++i) sum[i] = whole(first + i, m) ? sum[i] / num_signals_ : -1;
+    for (int i = 0; i < count; ++i) {
+      const double norm = amplitude(first + i, m) * root;
+      out[static_cast<std::size_t>(first + i)] = !whole(first + i, m) ? -1
+                                                 : norm > 0           ? dots[static_cast<std::size_t>(i)] / norm
+                                                                      : 0;
+    }
   }
 }
 

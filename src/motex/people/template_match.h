@@ -13,19 +13,19 @@ namespace motex {
 struct Match {
   int start = 0;
   int length = 0;
-  double correlation = 0;  ///< mean over signals, after stretching the pattern to `length`
-  double amplitude = 0;    ///< of the window: root mean square deviation over signals, each in its scale
+  double correlation = 0;  ///< over all signals together, after stretching the pattern to `length`
+  double amplitude = 0;    ///< of the window: its deviation, √ of the sum of the signals' variances
   double rival = 0;        ///< highest correlation of a match 0.2 … 0.6 lengths away
 };
 
-/// Pattern of an action: rows = frames, columns = signals, each column of mean 0 and norm 1 (or 0: constant).
+/// Pattern of an action: rows = frames, columns = signals, each column of mean 0, all together of norm 1 (0: constant).
 using Pattern = FrameMatrix;
 
 /// A series that patterns are looked for in; stretches are never crossed.
 class PatternSearch {
  public:
-  /// scale: one a signal, that its deviations are measured in. ok: frames that may be part of a match.
-  PatternSearch(const FrameMatrix& series, const std::vector<FrameSpan>& stretches, std::vector<double> scale);
+  /// Signals in comparable units (SeriesWindows).
+  PatternSearch(const FrameMatrix& series, const std::vector<FrameSpan>& stretches);
 
   /// The window as a pattern of `rows` frames (linear between frames).
   Pattern pattern(int start, int length, int rows) const;
@@ -39,12 +39,10 @@ class PatternSearch {
 
  private:
   void correlate(const Pattern& pattern, std::vector<double>& out) const;
-  double deviation(int s, int start, int length) const;
 
   int num_frames_ = 0, num_signals_ = 0;
   std::vector<std::vector<double>> values_, sums_, squares_;
   std::vector<int> run_end_;  ///< frame → first frame after it where the stretch, or what is finite, ends
-  std::vector<double> scale_;
 };
 
 /// The pattern played in `rows` frames.
