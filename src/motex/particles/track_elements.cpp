@@ -25,6 +25,7 @@ constexpr std::size_t kLongestPart = 16;  // sights of a path that may be a part
 constexpr double kBeside = 4.5;           // core scales
 constexpr double kHasParts = 0.06;        // shape_misfit from which elements are no single spots
 constexpr double kWellExplained = 0.8;    // share of their light that shapes must explain to be used
+constexpr double kCrowd = 100;            // elements a frame from which those that stand alone are odd ones
 constexpr double kWidening = 1.5;         // of the deviations expected: paths may be wrong
 
 using BlobFrames = std::vector<std::vector<Blob>>;
@@ -255,7 +256,15 @@ struct Followed {
   BlobFrames blobs;
   std::vector<SightChain> chains;
   LinkReport link;
+  Plane background;
+  double noise = 0;
 };
+
+double sights_per_frame(const BlobFrames& blobs) {
+  double sum = 0;
+  for (const auto& frame : blobs) sum += static_cast<double>(frame.size());
+  return sum / static_cast<double>(blobs.size());
+}
 
 /// Frames of the path that a sight is on, on average: paths in pieces are shorter.
 double mean_length(const std::vector<SightChain>& chains) {
@@ -325,12 +334,12 @@ std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& backgro
     chains = link_chains(sights_of(blobs), frames.width, frames.height, options.link, round > 0 ? &before : nullptr,
                          out.link);
     if (!shapes.shapes.empty()) PathsOfParts(blobs, out.link.model, frames.width, frames.height).drop(chains);
-    if (round + 1 == options.rounds && out.detect.shape_misfit > kHasParts) {
+    if (round + 1 == options.rounds && out.detect.shape_misfit > kHasParts && sights_per_frame(blobs) < kCrowd) {
       shapes = learn_element_shapes(residuals, blobs, chains, out.noise);
       if (shapes.explained < kWellExplained) shapes.shapes.clear();
       if (!shapes.shapes.empty()) {
         num_rounds += kShapedRounds;
-        spots = {blobs, chains, out.link};
+        spots = {blobs, chains, out.link, out.background, noise > 0 ? noise : noise_of(left)};
       }
     }
     if (round + 1 == num_rounds) break;
@@ -343,11 +352,12 @@ std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& backgro
     blobs = std::move(spots.blobs);
     chains = std::move(spots.chains);
     out.link = std::move(spots.link);
+    out.background = std::move(spots.background);
+    out.noise = spots.noise;
   }
   std::vector<Cable> cables;
   for (const SightChain& chain : chains) cables.push_back(cable_of(chain, blobs, out.link.model));
-  for (const auto& frame : blobs)
-    out.detections_per_frame += static_cast<double>(frame.size()) / static_cast<double>(num_frames);
+  out.detections_per_frame = sights_per_frame(blobs);
   job.progress("tracking elements", 1);
   return cables;
 }

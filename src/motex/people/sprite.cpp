@@ -60,13 +60,15 @@ Image to_image(const Sprite& sprite, int width, int height) {
 void paint(Image& image, const Sprite& sprite) {
   for (int y = std::max(0, -sprite.top); y < std::min(sprite.height, image.height - sprite.top); ++y) {
     for (int x = std::max(0, -sprite.left); x < std::min(sprite.width, image.width - sprite.left); ++x) {
-      const auto& [r, g, b, a] = sprite.at(x, y);
+      const PremultipliedRgba& front = sprite.at(x, y);
       Rgba& p = image.at(sprite.left + x, sprite.top + y);
       // The picture may be transparent itself: its colours count as far as they are there.
-      const std::uint8_t alpha = over(a, a, p.a);
+      const std::uint8_t alpha = over(front[3], front[3], p.a);
       if (alpha == 0) continue;
-      const auto mixed = [&](int front, int back) { return quotient(over(front, a, product(back, p.a)), alpha); };
-      p = {mixed(r, p.r), mixed(g, p.g), mixed(b, p.b), alpha};
+      const auto mixed = [&](int colour, int back) {
+        return quotient(over(colour, front[3], product(back, p.a)), alpha);
+      };
+      p = {mixed(front[0], p.r), mixed(front[1], p.g), mixed(front[2], p.b), alpha};
     }
   }
 }
