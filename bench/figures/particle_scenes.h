@@ -113,7 +113,7 @@ inline Scene bird_scene() {
 /// Birds near enough for their wings to be seen.
 inline Scene flapping_scene() {
   SimulateBirdsOptions options;
-  options.elements = 6, options.min_size = 2.6, options.max_size = 3.6;
+  options.seed = 7;
   Scene scene = make_scene("flapping birds", {}, 0, 0, [&] { return simulate_birds(options); });
   learn(scene);
   return scene;
