@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "motex/image/mask.h"
+#include "motex/people/region_runs.h"
 
 namespace motex {
-
-/// Pixels of one row that lie side by side and have one value.
-struct RegionRun {
-  int y = 0;
-  int first = 0, last = 0;  ///< x of both ends
-  int region = 0;
-};
 
 /// A connected set of pixels of one value: 8 neighbours where they are in the mask, 4 where they are not.
 struct MaskRegion {
@@ -27,7 +21,6 @@ struct MaskRegion {
 struct MaskRegions {
   std::vector<RegionRun> runs;  ///< from the top, from the left; they cover the mask
   std::vector<MaskRegion> regions;
-  std::vector<int> parents;  ///< scratch
 };
 
 /// Regions are numbered in the order of their first pixel, row by row.

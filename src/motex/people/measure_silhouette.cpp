@@ -80,8 +80,8 @@ std::array<double, 4> row_sums(const std::uint8_t* row, int width, double origin
 
 /// Takes the specks out of the alphas.
 void clear_specks(SilhouetteParts& parts) {
-  for (const SilhouetteRun& run : parts.runs) {
-    if (!parts.is_speck(run.part)) continue;
+  for (const RegionRun& run : parts.runs) {
+    if (!parts.is_speck(run.region)) continue;
     std::uint8_t* row = parts.alphas.data() + static_cast<std::ptrdiff_t>(run.y) * parts.stride;
     std::fill(row + run.first, row + run.last + 1, std::uint8_t{0});
   }

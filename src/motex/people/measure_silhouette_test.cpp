@@ -135,9 +135,9 @@ TEST(FindParts, AgreesWithFloodingOnRandomPictures) {
     find_parts(sprite, parts);
     ASSERT_EQ(static_cast<int>(parts.parts.size()), expected);
     std::int64_t area = 0;
-    for (const SilhouetteRun& run : parts.runs)
+    for (const RegionRun& run : parts.runs)
       for (int x = run.first; x <= run.last; ++x, ++area)
-        ASSERT_EQ(labels[static_cast<std::size_t>(run.y * sprite.width + x)], run.part);
+        ASSERT_EQ(labels[static_cast<std::size_t>(run.y * sprite.width + x)], run.region);
     EXPECT_EQ(area, parts.area);
   }
 }

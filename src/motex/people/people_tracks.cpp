@@ -81,8 +81,8 @@ void PeopleTracker::find_groups() {
       b = a + 1;
     }
   }
-  for (const SilhouetteRun& run : parts_.runs) {
-    const int group = group_of_part_[static_cast<std::size_t>(run.part)];
+  for (const RegionRun& run : parts_.runs) {
+    const int group = group_of_part_[static_cast<std::size_t>(run.region)];
     if (group < 0) continue;
     Group& one = groups_[static_cast<std::size_t>(group)];
     const double length = run.last - run.first + 1;
@@ -200,10 +200,10 @@ void PeopleTracker::follow() {
 void PeopleTracker::cut_out(const Sprite& frame, std::vector<TrackedPerson>& people) {
   const auto stride = static_cast<std::ptrdiff_t>(frame.width);
   labels_.assign(frame.pixels.size(), -1);
-  for (const SilhouetteRun& run : parts_.runs) {
+  for (const RegionRun& run : parts_.runs) {
     const auto row = labels_.begin() + run.y * stride;
     std::fill(row + run.first, row + run.last + 1,
-              static_cast<short>(group_of_part_[static_cast<std::size_t>(run.part)]));
+              static_cast<short>(group_of_part_[static_cast<std::size_t>(run.region)]));
   }
   const auto take_from = [&](std::ptrdiff_t to, std::ptrdiff_t from, bool inside) {
     const auto i = static_cast<std::size_t>(to);

@@ -13,15 +13,6 @@ constexpr std::int64_t kSpeckShare = 400;  // of the largest part
 constexpr std::int64_t kSmallestPart = 4;  // pixels
 constexpr std::uint64_t kTopBits = 0x8080808080808080;
 
-int root_of(std::vector<int>& parents, int label) {
-  while (parents[static_cast<std::size_t>(label)] != label) {
-    int& parent = parents[static_cast<std::size_t>(label)];
-    parent = parents[static_cast<std::size_t>(parent)];
-    label = parent;
-  }
-  return label;
-}
-
 void copy_alphas(const Sprite& sprite, SilhouetteParts& parts) {
   constexpr int kBlock = SilhouetteParts::kBlock;
   parts.stride = (sprite.width + kBlock - 1) / kBlock * kBlock;
@@ -46,35 +37,19 @@ int next_change(const std::uint8_t* alphas, int from, int width, std::uint64_t w
   return x;
 }
 
-/// Joins the runs of row y (from `begin` on) with those of the row above (from `above` to `begin`).
-void join_rows(SilhouetteParts& parts, std::size_t above, std::size_t begin) {
-  std::vector<SilhouetteRun>& runs = parts.runs;
-  for (std::size_t i = begin, j = above; i < runs.size() && j < begin;) {
-    if (runs[j].first <= runs[i].last + 1 && runs[i].first <= runs[j].last + 1) {
-      const int a = root_of(parts.parents, runs[i].part), b = root_of(parts.parents, runs[j].part);
-      parts.parents[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-    }
-    if (runs[j].last < runs[i].last)
-      ++j;
-    else
-      ++i;
-  }
-}
-
-/// Runs with labels of their own that `parents` joins.
 void find_runs(const Sprite& sprite, SilhouetteParts& parts) {
-  parts.runs.clear(), parts.parents.clear();
+  std::vector<RegionRun>& runs = parts.runs;
+  runs.clear();
   std::size_t above = 0;
   for (int y = 0; y < sprite.height; ++y) {
     const std::uint8_t* row = parts.alphas.data() + static_cast<std::ptrdiff_t>(y) * parts.stride;
-    const std::size_t begin = parts.runs.size();
+    const std::size_t begin = runs.size();
     for (int x = next_change(row, 0, sprite.width, kTopBits); x < sprite.width;) {
-      const int end = next_change(row, x, sprite.width, 0), label = static_cast<int>(parts.parents.size());
-      parts.parents.push_back(label);
-      parts.runs.push_back({y, x, end - 1, label});
+      const int end = next_change(row, x, sprite.width, 0);
+      runs.push_back({y, x, end - 1, true, static_cast<int>(runs.size())});
       x = next_change(row, end, sprite.width, kTopBits);
     }
-    join_rows(parts, above, begin);
+    join_rows(runs, above, begin);
     above = begin;
   }
 }
@@ -95,18 +70,12 @@ void find_parts(const Sprite& sprite, SilhouetteParts& parts) {
   }
   copy_alphas(sprite, parts);
   find_runs(sprite, parts);
-  // The root of a part is its first run, so parts get their numbers as the runs go by.
-  for (SilhouetteRun& run : parts.runs) {
-    const int root = root_of(parts.parents, run.part);
-    if (root == run.part) {
-      run.part = static_cast<int>(parts.parts.size());
-      parts.parts.push_back({{run.first, run.y, run.last, run.y}, 0});
-    } else {
-      run.part = parts.runs[static_cast<std::size_t>(root)].part;
-    }
-    SilhouettePart& part = parts.parts[static_cast<std::size_t>(run.part)];
+  const auto nowhere = BoundingBox{sprite.width, sprite.height, -1, -1};
+  parts.parts.assign(static_cast<std::size_t>(number_regions(parts.runs)), {nowhere, 0});
+  for (const RegionRun& run : parts.runs) {
+    SilhouettePart& part = parts.parts[static_cast<std::size_t>(run.region)];
     part.box.left = std::min(part.box.left, run.first), part.box.right = std::max(part.box.right, run.last);
-    part.box.bottom = run.y;
+    part.box.top = std::min(part.box.top, run.y), part.box.bottom = run.y;
     part.area += run.last - run.first + 1;
     parts.area += run.last - run.first + 1;
   }

@@ -5,17 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "motex/people/region_runs.h"
 #include "motex/people/silhouette.h"
 #include "motex/people/sprite.h"
 
 namespace motex {
-
-/// Pixels of one row that lie side by side with alpha ≥ ½, in pixels of the sprite.
-struct SilhouetteRun {
-  int y = 0;
-  int first = 0, last = 0;  ///< x of both ends
-  int part = 0;
-};
 
 /// A connected part of a silhouette (8 neighbours).
 struct SilhouettePart {
@@ -25,7 +19,7 @@ struct SilhouettePart {
 
 /// A silhouette taken apart. Kept between frames it allocates nothing.
 struct SilhouetteParts {
-  std::vector<SilhouetteRun> runs;  ///< from the top, from the left
+  std::vector<RegionRun> runs;  ///< pixels of the sprite with alpha ≥ ½, from the top, from the left
   std::vector<SilhouettePart> parts;
   std::int64_t area = 0;          ///< of all parts
   std::int64_t largest_area = 0;  ///< of the largest part
@@ -36,7 +30,6 @@ struct SilhouetteParts {
   static constexpr int kBlock = 32;  ///< rows of `alphas` are filled up with 0 to a whole number of blocks
   int stride = 0;                    ///< of a row, a multiple of kBlock
   std::vector<std::uint8_t> alphas;  ///< of the sprite, row by row
-  std::vector<int> parents;          ///< scratch of find_parts
 };
 
 /// Parts are numbered in the order of their first pixel, row by row. Cost: about 1 ns a pixel.
