@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "model_sources.h"
 #include "motex/motion_texture/choreograph.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -110,7 +110,7 @@ struct Choreograph {
   void run(Session& session) {
     const ChoreographyRequest request = parse_request();
     check_clip_outputs(outputs, adapt, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     if (session.flags.dry_run) {
       corpus_row(model, request.start);
       corpus_row(model, request.end);

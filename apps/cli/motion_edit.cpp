@@ -8,7 +8,7 @@
 #include "closest.h"
 #include "commands.h"
 #include "motex/motion_texture/texton_edit.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -120,7 +120,7 @@ struct Edit {
     if (set.empty() && turn.empty() && raise.empty() && pose.empty())
       throw InvalidInput("nothing to edit: give --turn, --set, --raise or --pose");
     check_clip_outputs(outputs, adapt, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const int instance = example.choose(model);
     std::vector<PoseEdit> edits;
     for (const EditText& edit : set_edits) edits.push_back(make_edit(model.features.skeleton, edit, true));

@@ -6,7 +6,7 @@
 #include "motex/core/files.h"
 #include "motex/motion_io/bvh.h"
 #include "motex/project/engine_export.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_folder.h"
 
@@ -28,7 +28,7 @@ struct Export {
 
   void run(Session& session) {
     check_output_folder(output, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const EnginePack pack =
         make_engine_pack(model, std::filesystem::path(model_path).stem().string(), options, session.job(0, 0.5));
     if (!session.flags.dry_run) write(pack);

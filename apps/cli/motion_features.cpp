@@ -6,7 +6,7 @@
 #include "motex/motion_io/clip_io.h"
 #include "motex/motion_io/npz.h"
 #include "motex/motion_texture/features.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "output_file.h"
 
 namespace motex::cli {
@@ -55,7 +55,7 @@ struct Features {
       clip = read_clip(clip_path, read, session.job(0, 0.5));
       space = make_feature_space({&clip, 1}, session.job(0.5, 0.7));
     } else {
-      const MotionTexture model = load_model(model_path);
+      const MotionTexture model = load_motion_texture(model_path);
       clip = load_clips_for(model, {clip_path}, read, session).at(0);
       space = model.features;
     }

@@ -8,7 +8,7 @@
 #include "commands.h"
 #include "motex/motion_texture/inbetween.h"
 #include "motex/motion_texture/placing.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -47,7 +47,7 @@ struct Inbetween {
     const ClipFrame first = parse_clip_frame("--from", from), last = parse_clip_frame("--to", to);
     if (frames < 1 || frames > 1'000'000) throw InvalidInput("--frames: a gap has 1 to 1000000 frames");
     check_clip_outputs(outputs, adapt, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const Clip before = clip_beside(model, first, Beside::kUpTo, read, session);
     const Clip after = clip_beside(model, last, Beside::kFrom, read, session);
     InbetweenReport report;

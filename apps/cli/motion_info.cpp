@@ -6,7 +6,7 @@
 
 #include "clip_info.h"
 #include "commands.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "motex/project/texton_audit.h"
 #include "motion_texton.h"
 #include "options_value.h"
@@ -110,7 +110,7 @@ struct Info {
       if (!audit.empty()) throw InvalidInput("--audit shows textons; name a model");
       return report_motion_file(model_path, list_parts, session);
     }
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     if (!audit.empty()) draw_audit(model, session);
     const auto summaries = summarise(model);
     session.result(value(model, summaries), text(model, summaries));

@@ -9,7 +9,7 @@
 #include "motex/motion_io/clip_io.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/project/load_clips.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "motex/project/sweep.h"
 #include "options_value.h"
 #include "output_file.h"
@@ -167,7 +167,7 @@ struct Learn {
     const JobContext job = session.job(std::max(from, 0.05), 0.99);
     const MotionTexture model = learn_motion_texture(clips, options, report, job);
     job.check_cancelled();
-    save_model(output, model);
+    save_motion_texture(output, model);
     const Value learned = report_value(report);
     for (const auto& [name, value] : std::get<Value::Members>(learned.data())) object[name] = value;
     object["model"] = output;

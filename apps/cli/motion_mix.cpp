@@ -4,7 +4,7 @@
 #include "motex/core/error.h"
 #include "motex/motion_texture/mix_models.h"
 #include "motex/motion_texture/model_edits.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "output_file.h"
 #include "text_table.h"
 
@@ -22,11 +22,11 @@ struct MixModels {
 
   void run(Session& session) {
     check_output(output, {".motex"}, session);
-    const MotionTexture a = load_model(path_a), b = load_model(path_b);
+    const MotionTexture a = load_motion_texture(path_a), b = load_motion_texture(path_b);
     MixReport report;
     const MotionTexture mixed = mix_models(a, b, report, session.job());
     const int first_of_b = first(report.textons_of_b);
-    if (!session.flags.dry_run) save_model(output, mixed);
+    if (!session.flags.dry_run) save_motion_texture(output, mixed);
     session.say((session.flags.dry_run ? "would write " : "wrote ") + output + ": " +
                 std::to_string(mixed.textons.size()) + " textons, those of " + path_b + " from " +
                 std::to_string(first_of_b) + " on; " + std::to_string(report.num_crossings) +

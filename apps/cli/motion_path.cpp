@@ -8,7 +8,7 @@
 #include "model_sources.h"
 #include "motex/motion_texture/synthesize.h"
 #include "motex/motion_texture/texton_paths.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -60,7 +60,7 @@ struct FindPath {
 
   void run(Session& session) {
     check_clip_outputs(outputs, adapt, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const TextonPaths paths =
         find_texton_paths(model, texton_number(model, "--from", from), texton_number(model, "--to", to), num_textons);
     Value object;

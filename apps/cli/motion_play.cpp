@@ -11,7 +11,7 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "motex/motion_io/csv_text.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "steer_input.h"
 #include "text_table.h"
@@ -118,7 +118,7 @@ struct Play {
   void run(Session& session) {
     if (session.flags.json) throw InvalidInput("--json: the frames themselves are the output; see --format");
     if (frames > 0 && secs > 0) throw InvalidInput("--frames and --secs say the same thing twice; name one");
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     if (secs > 0) frames = std::max<std::int64_t>(1, std::llround(secs / model.frame_time_secs()));
     if (unpaced_ && !with_steering && frames == 0)
       throw InvalidInput("--no-pacing without --steer has no end; give --frames N or --secs S");

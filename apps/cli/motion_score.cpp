@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "model_clips.h"
 #include "motex/motion_texture/learn.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "text_table.h"
 
 namespace motex::cli {
@@ -50,7 +50,7 @@ struct Score {
   }
 
   void run(Session& session) {
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const std::vector<Clip> clips = load_clips_for(model, clip_paths, read, session);
     std::vector<std::vector<std::string>> rows{{"clip", "frames", "textons", "global", "gain"}};
     std::vector<ScoreReport> scores;

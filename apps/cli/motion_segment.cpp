@@ -7,7 +7,7 @@
 #include "model_clips.h"
 #include "motex/core/files.h"
 #include "motex/motion_texture/learn.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "motex/project/pose_pictures.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -69,7 +69,7 @@ struct SegmentCall {
 
   void run(Session& session) {
     if (!output.empty()) check_output(output, {".csv", ".png", ".svg"}, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const std::vector<Clip> clips = load_clips_for(model, {clip_path}, read, session);
     if (clips.size() != 1) throw InvalidInput(clip_path + ": name one clip");
     const auto segments = segment_clip(model, clips[0]);

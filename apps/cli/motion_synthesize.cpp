@@ -12,7 +12,7 @@
 #include "motex/motion/crowd.h"
 #include "motex/project/dance.h"
 #include "motex/project/load_beats.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "skin_argument.h"
@@ -82,7 +82,7 @@ struct Synthesize {
     check_request();
     check_outputs(written_paths(), clip_output_extensions(), session);
     check_adapt(adapt, outputs);
-    MotionTexture model = load_model(model_path);
+    MotionTexture model = load_motion_texture(model_path);
     const Index num_frames = wanted_frames(model.frame_time_secs());
     const std::vector<int> textons = texton_numbers(model, "--path", split_at_commas(path_text));
     const int texton = unconstrained ? texton_number(model, "--texton", texton_text) : -1;

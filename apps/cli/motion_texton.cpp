@@ -5,7 +5,7 @@
 #include "closest.h"
 #include "command.h"
 #include "commands.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "output_file.h"
 #include "text_table.h"
 #include "texton_argument.h"
@@ -40,7 +40,7 @@ void ModelEditing::declare_output(Arguments& arguments) {
 
 void ModelEditing::open(Session& session) {
   if (!output.empty()) check_output(output, {".motex"}, session);
-  learned = load_learned_model(model_path);
+  learned = load_learned_motion_texture(model_path);
   applied = apply_edits(learned);
 }
 
@@ -51,7 +51,7 @@ void ModelEditing::write(Value object, const std::string& said, Session& session
   if (session.flags.dry_run)
     object["dry_run"] = true;
   else
-    save_model(target, learned);
+    save_motion_texture(target, learned);
   session.say((session.flags.dry_run ? "would change " : "changed ") + target + ": " + said);
   session.result(object, "");
 }
@@ -173,7 +173,7 @@ struct UndoEdit : ModelEditing {
 
   void run(Session& session) {
     if (!output.empty()) check_output(output, {".motex"}, session);
-    learned = load_learned_model(model_path);
+    learned = load_learned_motion_texture(model_path);
     const ModelEdit undone = undo_edit(learned, edit);
     Value object;
     object["undone"] = edit_text(undone);

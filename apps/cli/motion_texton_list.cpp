@@ -4,7 +4,7 @@
 
 #include "commands.h"
 #include "motex/motion_texture/liveliness.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "motion_texton.h"
 #include "text_table.h"
 
@@ -58,7 +58,7 @@ struct ListTextons {
   void declare(Arguments& arguments) { arguments.positional("MODEL", "made by motex motion learn", model_path); }
 
   void run(Session& session) {
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const std::vector<TextonRow> rows = describe(model);
     Value object;
     object["model"] = model_path;

@@ -4,7 +4,7 @@
 #include "closest.h"
 #include "commands.h"
 #include "motex/motion_texture/texton_vary.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
@@ -32,7 +32,7 @@ struct Vary {
   void run(Session& session) {
     example.check();
     check_clip_outputs(outputs, adapt, session);
-    const MotionTexture model = load_model(model_path);
+    const MotionTexture model = load_motion_texture(model_path);
     const int instance = example.choose(model);
     if (session.flags.dry_run) return would_write(outputs, -1, session);
     VaryReport report;

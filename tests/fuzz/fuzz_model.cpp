@@ -1,37 +1,29 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "motex/core/error.h"
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/model_edits.h"
 #include "motex/motion_texture/synthesize.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
+#include "round_trip.h"
 #include "sealed_archive.h"
 
 namespace motex {
 namespace {
 
-/// Whatever the bytes are, the reader returns a model or throws; a model that it returns can be written and read again
-/// as the same bytes, dances and recognises without crash, or says why not.
+/// A model that is read and written back unchanged dances and recognises without crash, or says why not.
 void try_model(const std::string& bytes) {
-  MotionTexture model;
-  try {
-    model = read_model_bytes(bytes, "fuzz");
-  } catch (const Error&) {
-    return;
-  }
-  const std::string written = write_model_bytes(model);
-  if (write_model_bytes(read_model_bytes(written, "again")) != written) {
-    std::cerr << "write and read changed the model\n";
-    std::abort();
-  }
+  std::optional<MotionTexture> read = round_trip(bytes, parse_motion_texture, motion_texture_bytes);
+  if (!read) return;
   if (bytes.size() > 100'000) return;
   try {
-    model = apply_edits(std::move(model));
+    const MotionTexture model = apply_edits(*std::move(read));
     SynthesizeReport report;
     const Clip clip = synthesize_motion(model, 50, {}, {}, report);
     segment_clip(model, clip);

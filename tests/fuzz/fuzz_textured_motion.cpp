@@ -1,37 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
-#include <string>
 
-#include "motex/core/error.h"
 #include "motex/project/textured_motion_file.h"
+#include "round_trip.h"
 #include "sealed_archive.h"
 
-namespace motex {
-namespace {
-
-/// Whatever the bytes are, the reader returns a model or throws; a model that it returns is written and read again as
-/// the same bytes.
-void try_model(const std::string& bytes) {
-  TexturedMotion model;
-  try {
-    model = parse_textured_motion(bytes, "fuzz");
-  } catch (const Error&) {
-    return;
-  }
-  const std::string written = textured_motion_bytes(model);
-  if (textured_motion_bytes(parse_textured_motion(written, "again")) != written) {
-    std::cerr << "write and read changed the model\n";
-    std::abort();
-  }
-}
-
-}  // namespace
-}  // namespace motex
-
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  motex::try_model(motex::sealed_archive(data, size));
+  motex::round_trip(motex::sealed_archive(data, size), motex::parse_textured_motion, motex::textured_motion_bytes);
   return 0;
 }

@@ -7,7 +7,7 @@
 #include "motex/motion_io/gltf_skin.h"
 #include "motex/motion_texture/synthesize.h"
 #include "motex/motion_texture/synthetic.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 
 namespace motex {
 namespace {
@@ -37,7 +37,7 @@ MotionTexture skinned_model() {
 TEST(ModelSkin, GoesThroughTheFileIntoEveryDance) {
   const MotionTexture model = skinned_model();
   ASSERT_TRUE(skin_fits(model.features.skeleton));
-  const MotionTexture again = read_model_bytes(write_model_bytes(model), "again.motex");
+  const MotionTexture again = parse_motion_texture(motion_texture_bytes(model), "again.motex");
   ASSERT_TRUE(skin_fits(again.features.skeleton));
   EXPECT_EQ(again.features.skeleton.skin->glb, model.features.skeleton.skin->glb);
   SynthesizeReport report;
@@ -52,7 +52,7 @@ TEST(ModelSkin, ABrokenOneIsRefused) {
   auto broken = std::make_shared<Skin>(*model.features.skeleton.skin);
   broken->glb.resize(broken->glb.size() / 2);
   model.features.skeleton.skin = broken;
-  EXPECT_THROW(read_model_bytes(write_model_bytes(model), "broken.motex"), InvalidInput);
+  EXPECT_THROW(parse_motion_texture(motion_texture_bytes(model), "broken.motex"), InvalidInput);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "motex/motion_texture/learn.h"
 #include "motex/motion_texture/synthesize.h"
 #include "motex/project/load_clips.h"
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 
 /// The whole road on a real dance: the bundled clip of 12 seconds.
 namespace motex {
@@ -66,9 +66,9 @@ TEST(RealDance, OwnBasisGivesTheSameModelForAnyNumberOfThreads) {
   LearnReport report;
   JobContext one, two;
   one.jobs = 1, two.jobs = 2;
-  const std::string bytes = write_model_bytes(learn_motion_texture(clips, options, report, one));
-  EXPECT_EQ(write_model_bytes(learn_motion_texture(clips, options, report, two)), bytes);
-  EXPECT_EQ(write_model_bytes(read_model_bytes(bytes, "again")), bytes);
+  const std::string bytes = motion_texture_bytes(learn_motion_texture(clips, options, report, one));
+  EXPECT_EQ(motion_texture_bytes(learn_motion_texture(clips, options, report, two)), bytes);
+  EXPECT_EQ(motion_texture_bytes(parse_motion_texture(bytes, "again")), bytes);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ Clip dance(const MotionTexture& model, Index frames) {
 bool read_and_use(const std::string& bytes) {
   MotionTexture model;
   try {
-    model = read_model_bytes(bytes, "altered.motex");
+    model = parse_motion_texture(bytes, "altered.motex");
   } catch (const InvalidInput&) {
     return false;
   } catch (const NumericalFailure&) {
@@ -84,12 +84,12 @@ std::string with_value(std::string bytes, const std::string& name, int dimension
   return sealed(std::move(bytes));
 }
 
-TEST(ModelFile, WriteReadWriteIsIdentity) {
+TEST(MotionTextureFile, WriteReadWriteIsIdentity) {
   for (const Basis basis : {Basis::kShared, Basis::kOwn}) {
     const MotionTexture& model = small_model(basis);
-    const std::string bytes = write_model_bytes(model);
-    const MotionTexture again = read_model_bytes(bytes, "again");
-    EXPECT_EQ(write_model_bytes(again), bytes);
+    const std::string bytes = motion_texture_bytes(model);
+    const MotionTexture again = parse_motion_texture(bytes, "again");
+    EXPECT_EQ(motion_texture_bytes(again), bytes);
     EXPECT_EQ(again.options.seed, model.options.seed);
     EXPECT_EQ(again.options.basis, basis);
     EXPECT_EQ(again.options.transition_prior, 0.1);
@@ -103,7 +103,7 @@ TEST(ModelFile, WriteReadWriteIsIdentity) {
   }
 }
 
-TEST(ModelFile, SameSeedSameBytesForAnyNumberOfThreads) {
+TEST(MotionTextureFile, SameSeedSameBytesForAnyNumberOfThreads) {
   const std::vector<Clip> clips = walking_clips(3, 300);
   JobContext one, two;
   one.jobs = 1, two.jobs = 2;
@@ -112,53 +112,53 @@ TEST(ModelFile, SameSeedSameBytesForAnyNumberOfThreads) {
   options.state_size = 6;
   for (const Basis basis : {Basis::kShared, Basis::kOwn}) {
     options.basis = basis;
-    EXPECT_EQ(write_model_bytes(learn_motion_texture(clips, options, report, one)),
-              write_model_bytes(learn_motion_texture(clips, options, report, two)));
+    EXPECT_EQ(motion_texture_bytes(learn_motion_texture(clips, options, report, one)),
+              motion_texture_bytes(learn_motion_texture(clips, options, report, two)));
   }
 }
 
-TEST(ModelFile, OnDisk) {
+TEST(MotionTextureFile, OnDisk) {
   const auto path = std::filesystem::path(testing::TempDir()) / "model_file_test.motex";
-  save_model(path, small_model());
-  EXPECT_EQ(read_file(path), write_model_bytes(small_model()));
-  EXPECT_EQ(load_model(path).textons.size(), small_model().textons.size());
+  save_motion_texture(path, small_model());
+  EXPECT_EQ(read_file(path), motion_texture_bytes(small_model()));
+  EXPECT_EQ(load_motion_texture(path).textons.size(), small_model().textons.size());
   std::filesystem::remove(path);
-  EXPECT_THROW(load_model(path), InvalidInput);
+  EXPECT_THROW(load_motion_texture(path), InvalidInput);
 }
 
-TEST(ModelFile, WithoutLegs) {
+TEST(MotionTextureFile, WithoutLegs) {
   MotionTexture model = small_model();
   model.feet.legs.clear();
-  const std::string bytes = write_model_bytes(model);
-  EXPECT_EQ(write_model_bytes(read_model_bytes(bytes, "legless")), bytes);
+  const std::string bytes = motion_texture_bytes(model);
+  EXPECT_EQ(motion_texture_bytes(parse_motion_texture(bytes, "legless")), bytes);
 }
 
-TEST(ModelFile, NamesOfAnyKind) {
+TEST(MotionTextureFile, NamesOfAnyKind) {
   MotionTexture model = small_model();
   model.clip_names[0] = "two\nlines.bvh";
   model.clip_names[1] = "";
   model.features.skeleton.joints[3].name = "a name with spaces and ü";
-  const MotionTexture again = read_model_bytes(write_model_bytes(model), "names");
+  const MotionTexture again = parse_motion_texture(motion_texture_bytes(model), "names");
   EXPECT_EQ(again.clip_names, (std::vector<std::string>{"two lines.bvh", ""}));
   EXPECT_EQ(again.features.skeleton.joints[3].name, "a name with spaces and ü");
 }
 
-TEST(ModelFile, EveryTruncationIsRefused) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, EveryTruncationIsRefused) {
+  const std::string bytes = motion_texture_bytes(small_model());
   for (std::size_t size = 0; size < bytes.size(); size += size < 600 ? 1 : 397)
-    EXPECT_THROW(read_model_bytes(bytes.substr(0, size), "cut"), InvalidInput) << size;
+    EXPECT_THROW(parse_motion_texture(bytes.substr(0, size), "cut"), InvalidInput) << size;
   // Cut at every place of the beginning, with a checksum that agrees.
   for (std::size_t size = 40; size < 4000; size += 3) EXPECT_FALSE(read_and_use(sealed(bytes.substr(0, size)))) << size;
-  EXPECT_THROW(read_model_bytes(bytes + '\0', "longer"), InvalidInput);
+  EXPECT_THROW(parse_motion_texture(bytes + '\0', "longer"), InvalidInput);
 }
 
-TEST(ModelFile, AlteredBytesAreRefusedOrReadSafely) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, AlteredBytesAreRefusedOrReadSafely) {
+  const std::string bytes = motion_texture_bytes(small_model());
   Rng rng(1);
   for (int i = 0; i < 300; ++i) {
     std::string altered = bytes;
     altered[rng.below(bytes.size())] ^= static_cast<char>(1 + rng.below(255));
-    EXPECT_THROW(read_model_bytes(altered, "altered"), InvalidInput);
+    EXPECT_THROW(parse_motion_texture(altered, "altered"), InvalidInput);
   }
   int accepted = 0;
   for (int i = 0; i < 800; ++i) {
@@ -172,10 +172,10 @@ TEST(ModelFile, AlteredBytesAreRefusedOrReadSafely) {
   EXPECT_LT(accepted, 800);
 }
 
-TEST(ModelFile, HostileIndicesAndNumbersAreRefused) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, HostileIndicesAndNumbersAreRefused) {
+  const std::string bytes = motion_texture_bytes(small_model());
   const auto refused = [&](const std::string& altered) {
-    EXPECT_THROW(read_model_bytes(altered, "hostile"), InvalidInput);
+    EXPECT_THROW(parse_motion_texture(altered, "hostile"), InvalidInput);
   };
   constexpr std::int64_t kHuge = std::numeric_limits<std::int64_t>::max();
   ASSERT_EQ(sealed(bytes), bytes);
@@ -212,21 +212,21 @@ TEST(ModelFile, HostileIndicesAndNumbersAreRefused) {
   refused(with_value(bytes, "frame_time_and_cm_per_unit", 1, 0, 1.1e-6));
 }
 
-TEST(ModelFile, NumbersThatAreNotFiniteAreRefused) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, NumbersThatAreNotFiniteAreRefused) {
+  const std::string bytes = motion_texture_bytes(small_model());
   for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (const char* name : {"joint_offsets", "feature_held", "subspace/0", "dynamics/0", "statistics/0", "places",
                              "transitions", "global_subspace", "global_statistics", "legs"})
-      EXPECT_THROW(read_model_bytes(with_value(bytes, name, 2, 2, value), "hostile"), InvalidInput) << name;
+      EXPECT_THROW(parse_motion_texture(with_value(bytes, name, 2, 2, value), "hostile"), InvalidInput) << name;
     for (const char* name : {"metres_per_unit", "outside_deviation", "foot_thresholds", "feature_weights"})
-      EXPECT_THROW(read_model_bytes(with_value(bytes, name, 1, 0, value), "hostile"), InvalidInput) << name;
-    EXPECT_THROW(read_model_bytes(with_value(bytes, "corpus", 2, 7, static_cast<float>(value)), "hostile"),
+      EXPECT_THROW(parse_motion_texture(with_value(bytes, name, 1, 0, value), "hostile"), InvalidInput) << name;
+    EXPECT_THROW(parse_motion_texture(with_value(bytes, "corpus", 2, 7, static_cast<float>(value)), "hostile"),
                  InvalidInput);
   }
 }
 
-TEST(ModelFile, HugeSizesAllocateNothing) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, HugeSizesAllocateNothing) {
+  const std::string bytes = motion_texture_bytes(small_model());
   for (const char* name : {"corpus", "instances", "options", "legs"}) {
     const int dimensions = name[0] == 'c' || name[0] == 'l' ? 2 : 1;
     const std::size_t sizes = elements_of(bytes, name, dimensions) - 8 * static_cast<std::size_t>(dimensions);
@@ -235,80 +235,80 @@ TEST(ModelFile, HugeSizesAllocateNothing) {
       for (int d = 0; d < dimensions; ++d) {
         std::string altered = bytes;
         std::memcpy(altered.data() + sizes + 8 * static_cast<std::size_t>(d), &value, 8);
-        EXPECT_THROW(read_model_bytes(sealed(altered), "hostile"), InvalidInput) << name << ' ' << value;
+        EXPECT_THROW(parse_motion_texture(sealed(altered), "hostile"), InvalidInput) << name << ' ' << value;
       }
   }
 }
 
-TEST(ModelFile, DynamicsWithoutUsableNoiseAreRefused) {
-  const std::string bytes = write_model_bytes(small_model());
+TEST(MotionTextureFile, DynamicsWithoutUsableNoiseAreRefused) {
+  const std::string bytes = motion_texture_bytes(small_model());
   const std::size_t row = 3 * 4 + 1;  // [A₁ A₂ | D | B Bᵀ], 4 states
-  EXPECT_THROW(read_model_bytes(with_value(bytes, "dynamics/0", 2, row - 4, -1.0), "hostile"), Error);
+  EXPECT_THROW(parse_motion_texture(with_value(bytes, "dynamics/0", 2, row - 4, -1.0), "hostile"), Error);
 }
 
-TEST(ModelFile, ForeignAndNewerFiles) {
-  std::string bytes = write_model_bytes(small_model());
-  EXPECT_THROW(read_model_bytes("", "empty"), UnsupportedFile);
-  EXPECT_THROW(read_model_bytes("HIERARCHY\nROOT Hips\n", "dance.bvh"), UnsupportedFile);
+TEST(MotionTextureFile, ForeignAndNewerFiles) {
+  std::string bytes = motion_texture_bytes(small_model());
+  EXPECT_THROW(parse_motion_texture("", "empty"), UnsupportedFile);
+  EXPECT_THROW(parse_motion_texture("HIERARCHY\nROOT Hips\n", "dance.bvh"), UnsupportedFile);
   bytes[8] = 3;
-  EXPECT_THROW(read_model_bytes(sealed(bytes), "newer"), UnsupportedFile);
+  EXPECT_THROW(parse_motion_texture(sealed(bytes), "newer"), UnsupportedFile);
 }
 
-TEST(ModelFile, EditsStandBesideTheLearnedModel) {
+TEST(MotionTextureFile, EditsStandBesideTheLearnedModel) {
   MotionTexture model = small_model();
-  const std::string learned = write_model_bytes(model);
+  const std::string learned = motion_texture_bytes(model);
   const std::vector<ModelEdit> edits{{ModelEdit::Kind::kName, {1}, 1, "long step"},
                                      {ModelEdit::Kind::kMerge, {1, 0}},
                                      {ModelEdit::Kind::kWeight, {-1, 1}, 0.1}};
   std::vector<std::string> stages{learned};
   for (const ModelEdit& edit : edits) {
     add_edit(model, edit);
-    stages.push_back(write_model_bytes(model));
-    model = read_model_bytes(stages.back(), "edited");
-    EXPECT_EQ(write_model_bytes(model), stages.back());
+    stages.push_back(motion_texture_bytes(model));
+    model = parse_motion_texture(stages.back(), "edited");
+    EXPECT_EQ(motion_texture_bytes(model), stages.back());
   }
   EXPECT_EQ(model.edits, edits);
   EXPECT_EQ(model.textons[1].name, "") << "not applied";
   EXPECT_EQ(stages.back()[8], 2) << "old programs must not dance it without its edits";
   const MotionTexture applied = apply_edits(model);
   EXPECT_EQ(applied.textons[1].name, "long step");
-  EXPECT_THROW(write_model_bytes(applied), InvalidInput);
+  EXPECT_THROW(motion_texture_bytes(applied), InvalidInput);
   for (std::size_t k = edits.size(); k-- > 0;) {
     EXPECT_EQ(undo_edit(model), edits[k]);
-    EXPECT_TRUE(write_model_bytes(model) == stages[k]) << "undone to the byte";
+    EXPECT_TRUE(motion_texture_bytes(model) == stages[k]) << "undone to the byte";
   }
 }
 
-TEST(ModelFile, LoadingAppliesEdits) {
+TEST(MotionTextureFile, LoadingAppliesEdits) {
   MotionTexture model = small_model();
   add_edit(model, {ModelEdit::Kind::kName, {0}, 1, "start"});
   const auto path = std::filesystem::path(testing::TempDir()) / "edited.motex";
-  save_model(path, model);
-  EXPECT_TRUE(load_learned_model(path).textons[0].name.empty());
-  EXPECT_EQ(load_model(path).textons[0].name, "start");
+  save_motion_texture(path, model);
+  EXPECT_TRUE(load_learned_motion_texture(path).textons[0].name.empty());
+  EXPECT_EQ(load_motion_texture(path).textons[0].name, "start");
   model.edits[0].textons[0] = 100'000;
-  save_model(path, model);
-  EXPECT_NO_THROW(load_learned_model(path));
-  EXPECT_THROW(load_model(path), InvalidInput);
+  save_motion_texture(path, model);
+  EXPECT_NO_THROW(load_learned_motion_texture(path));
+  EXPECT_THROW(load_motion_texture(path), InvalidInput);
   std::filesystem::remove(path);
 }
 
-TEST(ModelFile, BrokenEditsAreRefused) {
+TEST(MotionTextureFile, BrokenEditsAreRefused) {
   MotionTexture model = small_model();
   model.edits = {{ModelEdit::Kind::kDrop, {0, 1}}};
-  const std::string bytes = write_model_bytes(model);
+  const std::string bytes = motion_texture_bytes(model);
   ASSERT_NE(bytes.find("drop 0 1\n"), std::string::npos);
   for (const char* line : {"dorp 0 1\n", "drop 0 x\n", "name 0,1\n", "\n\n\n\n\n\n\n\n\n", "weight 1\n"}) {
     std::string altered = bytes;
     altered.replace(bytes.find("drop 0 1\n"), 9, std::string(line).append(9, ' ').substr(0, 9));
-    EXPECT_THROW(read_model_bytes(sealed(altered), "hostile"), InvalidInput) << line;
+    EXPECT_THROW(parse_motion_texture(sealed(altered), "hostile"), InvalidInput) << line;
   }
 }
 
 /// A file of every format version is kept (tests/old_files); what it held when it was new is what it holds for ever.
-TEST(ModelFile, ReadsVersionOne) {
+TEST(MotionTextureFile, ReadsVersionOne) {
   const MotionTexture model =
-      load_model(std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v1.motex");
+      load_motion_texture(std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v1.motex");
   EXPECT_EQ(model.clip_names, (std::vector<std::string>{"walk_0.bvh", "walk_1.bvh"}));
   EXPECT_EQ(model.clip_lengths, (std::vector<Index>{75, 75}));
   EXPECT_EQ(model.features.skeleton.num_joints(), 17);
@@ -333,15 +333,15 @@ TEST(ModelFile, ReadsVersionOne) {
   check_clip(dance(model, 300));
 }
 
-TEST(ModelFile, ReadsVersionTwo) {
+TEST(MotionTextureFile, ReadsVersionTwo) {
   const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/motion_texture_v2.motex";
-  const MotionTexture learned = load_learned_model(path);
-  EXPECT_TRUE(write_model_bytes(learned) == read_file(path));
+  const MotionTexture learned = load_learned_motion_texture(path);
+  EXPECT_TRUE(motion_texture_bytes(learned) == read_file(path));
   EXPECT_DOUBLE_EQ(learned.features.reference_height, 84.000000000000043);
   std::string edits;
   for (const ModelEdit& edit : learned.edits) edits += edit_text(edit) + '\n';
   EXPECT_EQ(edits, "name 1 long step\nmerge 1 3\nweight any 2 0.25\ndrop 0\n");
-  const MotionTexture model = load_model(path);
+  const MotionTexture model = load_motion_texture(path);
   EXPECT_EQ(find_texton(model, "long step"), 1);
   EXPECT_EQ(model.textons[3].merged_into, 1);
   EXPECT_TRUE(model.textons[0].is_dropped);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-#include "motex/project/model_file.h"
+#include "motex/project/motion_texture_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -357,7 +357,7 @@ TransitionMatrix read_transitions(const ArchiveReader& in, int num_textons) {
 
 }  // namespace
 
-std::string write_model_bytes(const MotionTexture& model) {
+std::string motion_texture_bytes(const MotionTexture& model) {
   if (model.edits_applied && !model.edits.empty())
     throw InvalidInput("files hold models as they were learned; this one has its edits applied");
   ArchiveWriter out(kKind, model_version(model));
@@ -382,11 +382,11 @@ std::string write_model_bytes(const MotionTexture& model) {
   return out.bytes();
 }
 
-void save_model(const std::filesystem::path& path, const MotionTexture& model) {
-  write_file(path, write_model_bytes(model));
+void save_motion_texture(const std::filesystem::path& path, const MotionTexture& model) {
+  write_file(path, motion_texture_bytes(model));
 }
 
-MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
+MotionTexture parse_motion_texture(std::string bytes, const std::string& name) {
   const ArchiveReader in(std::move(bytes), name, kKind, kNewestVersion);
   MotionTexture model;
   const std::string options = in.text("options");
@@ -414,12 +414,12 @@ MotionTexture read_model_bytes(std::string bytes, const std::string& name) {
   return model;
 }
 
-MotionTexture load_learned_model(const std::filesystem::path& path) {
-  return read_model_bytes(read_file(path), path.filename().string());
+MotionTexture load_learned_motion_texture(const std::filesystem::path& path) {
+  return parse_motion_texture(read_file(path), path.filename().string());
 }
 
-MotionTexture load_model(const std::filesystem::path& path) {
-  MotionTexture learned = load_learned_model(path);
+MotionTexture load_motion_texture(const std::filesystem::path& path) {
+  MotionTexture learned = load_learned_motion_texture(path);
   try {
     return apply_edits(std::move(learned));
   } catch (const InvalidInput& error) {
