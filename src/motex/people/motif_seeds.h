@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "motex/core/job.h"
+#include "motex/core/matrix.h"
+#include "motex/people/action_windows.h"
+#include "motex/people/motifs.h"
+#include "motex/people/template_match.h"
+
+namespace motex {
+
+/// Euclidean between z-normalised windows / √window.
+inline double correlation_distance(double correlation) { return std::sqrt(std::max(0.0, 2 * (1 - correlation))); }
+
+/// A pattern with what it matches, the closest first; the first is where it comes from.
+struct MotifSeed {
+  int window = 0;
+  std::vector<Match> matches;
+  std::vector<double> lambda;  ///< expected by chance at each match
+  double gain = 0;             ///< nats: −ln P
+  int count = 0;               ///< occurrences within R
+};
+
+/// What find_motifs() looks at: the series and what chance makes of it.
+struct MotifSearch {
+  const FrameMatrix& series;  ///< of comparable units
+  const FindMotifsOptions& options;
+  const std::vector<FrameSpan>& stretches;
+  const JobContext& job;
+  ActionWindows action;
+  PatternSearch frames;                      ///< of the series
+  std::vector<PatternSearch> backgrounds{};  ///< of the length at hand
+  double places = 0;                         ///< windows of the length at hand that may be an action
+  bool whole_only = false;                   ///< ActionWindows::allow
+};
+
+/// The count of least chance among the seed's matches (inside options.radius where it is given).
+void rate(MotifSeed& seed, const FindMotifsOptions& options);
+
+/// The pattern repeats within itself: a shorter one tells more.
+bool is_several(const MotifSearch& search, const MotifSeed& seed);
+
+/// Patterns of every length with what they match. active: what the background is fitted to. num_patterns grows by the
+/// number of different patterns there could be.
+std::vector<MotifSeed> motif_seeds(MotifSearch& search, const std::vector<int>& lengths,
+                                   const std::vector<FrameSpan>& active, double& num_patterns);
+
+}  // namespace motex
