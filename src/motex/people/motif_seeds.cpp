@@ -201,6 +201,8 @@ std::vector<MotifSeed> motif_seeds(MotifSearch& search, const std::vector<int>& 
     for (const bool differenced : {false, true})
       search.backgrounds.emplace_back(background_series(search.series, active, window, differenced, kBackgroundFrames),
                                       std::vector<FrameSpan>{});
+    search.frames.prepare(window);
+    for (PatternSearch& background : search.backgrounds) background.prepare(window);
     const std::size_t first = seeds.size();
     seeds.resize(first + starts.size());
     parallel_for(search.job.jobs, static_cast<int>(starts.size()), [&](int k) {

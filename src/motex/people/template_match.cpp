@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+
+#include "motex/core/wide.h"
 
 namespace motex {
 namespace {
@@ -23,6 +26,32 @@ void normalise(Pattern& pattern) {
   }
   const double norm = pattern.norm();
   if (norm > 0) pattern /= norm;
+}
+
+int played_length(int rows, double tempo) { return std::max(4, static_cast<int>(std::lround(rows * tempo))); }
+
+constexpr int kLanes = 4;
+constexpr int kVectors = 8;  // half of AVX2's registers
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+/// out[i] += Σ_t weights[t] x[i + t], one t after another.
+MOTEX_WIDE void add_products(const double* x, const double* weights, int m, int count, double* out) {
+  int first = 0;
+  for (; first + kLanes * kVectors <= count; first += kLanes * kVectors) {
+    Lanes sum[kVectors];
+    std::memcpy(sum, out + first, sizeof sum);
+    for (int t = 0; t < m; ++t) {
+      const double* from = x + first + t;
+      for (int v = 0; v < kVectors; ++v) {
+        Lanes y;
+        std::memcpy(&y, from + v * kLanes, sizeof y);
+        sum[v] += weights[t] * y;
+      }
+    }
+    std::memcpy(out + first, sum, sizeof sum);
+  }
+  for (; first < count; ++first)
+    for (int t = 0; t < m; ++t) out[first] += weights[t] * x[first + t];
 }
 
 }  // namespace
@@ -100,26 +129,29 @@ Pattern PatternSearch::pattern(int start, int length, int rows) const {
 
 void PatternSearch::correlate(const Pattern& pattern, std::vector<double>& out) const {
   const int m = static_cast<int>(pattern.rows()), num_windows = num_frames_ - m + 1;
-  constexpr int kBlock = 256;
-  std::array<double, kBlock> dots{};
-  const double root = std::sqrt(static_cast<double>(m));
-  for (int first = 0; first < num_windows; first += kBlock) {
-    const int count = std::min(kBlock, num_windows - first);
-    dots.fill(0);
-    for (int s = 0; s < num_signals_; ++s) {
-      const double* x = values_[static_cast<std::size_t>(s)].data() + first;
-      for (int t = 0; t < m; ++t) {
-        const double weight = pattern(t, s);
-        for (int i = 0; i < count; ++i) dots[static_cast<std::size_t>(i)] += weight * x[i + t];
-      }
-    }
-    for (int i = 0; i < count; ++i) {
-      const double norm = amplitude(first + i, m) * root;
-      out[static_cast<std::size_t>(first + i)] = !whole(first + i, m) ? -1
-                                                 : norm > 0           ? dots[static_cast<std::size_t>(i)] / norm
-                                                                      : 0;
-    }
+  std::vector<double> weights(static_cast<std::size_t>(m)), dots(static_cast<std::size_t>(num_windows), 0);
+  for (int s = 0; s < num_signals_; ++s) {
+    for (int t = 0; t < m; ++t) weights[static_cast<std::size_t>(t)] = pattern(t, s);
+    add_products(values_[static_cast<std::size_t>(s)].data(), weights.data(), m, num_windows, dots.data());
   }
+  const auto known = std::find_if(norms_.begin(), norms_.end(), [m](const Norms& norms) { return norms.length == m; });
+  const std::vector<double> computed = known == norms_.end() ? norms(m) : std::vector<double>{};
+  const std::vector<double>& norm = known == norms_.end() ? computed : known->values;
+  for (std::size_t k = 0; k < dots.size(); ++k) out[k] = norm[k] < 0 ? -1 : norm[k] > 0 ? dots[k] / norm[k] : 0;
+}
+
+std::vector<double> PatternSearch::norms(int length) const {
+  const double root = std::sqrt(static_cast<double>(length));
+  std::vector<double> out;
+  for (int start = 0; start + length <= num_frames_; ++start)
+    out.push_back(whole(start, length) ? amplitude(start, length) * root : -1);
+  return out;
+}
+
+void PatternSearch::prepare(int rows) {
+  norms_.clear();
+  for (const double tempo : kTempos)
+    if (const int length = played_length(rows, tempo); length <= num_frames_) norms_.push_back({length, norms(length)});
 }
 
 std::vector<Match> PatternSearch::matches(const Pattern& pattern, double least) const {
@@ -127,7 +159,7 @@ std::vector<Match> PatternSearch::matches(const Pattern& pattern, double least) 
   std::vector<Match> best(static_cast<std::size_t>(num_frames_));  // by the middle of the window
   std::vector<double> correlation(static_cast<std::size_t>(num_frames_));
   for (const double tempo : kTempos) {
-    const int length = std::max(4, static_cast<int>(std::lround(m * tempo)));
+    const int length = played_length(m, tempo);
     if (length > num_frames_) continue;
     correlate(length == m ? pattern : stretched(pattern, length), correlation);
     for (int start = 0; start + length <= num_frames_; ++start) {

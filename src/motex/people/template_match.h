@@ -32,16 +32,25 @@ class PatternSearch {
   /// Highest correlations with the pattern played at 0.82 … 1.22 times its length, at least 0.6 lengths apart, falling;
   /// none below `least`.
   std::vector<Match> matches(const Pattern& pattern, double least) const;
+  /// Makes matches() of patterns of that many frames cheaper, until it is told another number. Not thread-safe.
+  void prepare(int rows);
   double amplitude(int start, int length) const;
   /// All frames of the window are finite and of one stretch.
   bool whole(int start, int length) const;
   int num_frames() const { return num_frames_; }
 
  private:
+  struct Norms {
+    int length;
+    std::vector<double> values;
+  };
+  /// Of the windows of that length, each less its mean; −1: not whole.
+  std::vector<double> norms(int length) const;
   void correlate(const Pattern& pattern, std::vector<double>& out) const;
 
   int num_frames_ = 0, num_signals_ = 0;
   std::vector<std::vector<double>> values_, sums_, squares_;
+  std::vector<Norms> norms_;
   std::vector<int> run_end_;  ///< frame → first frame after it where the stretch, or what is finite, ends
 };
 
