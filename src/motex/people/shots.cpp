@@ -56,6 +56,13 @@ double beyond(const std::vector<std::uint8_t>& values, const std::vector<std::ui
 ShotFinder::ShotFinder(double frames_per_sec)
     : reach_(std::clamp(static_cast<int>(std::lround(frames_per_sec / 2)), 4, 60)) {}
 
+PictureSize ShotFinder::small_size(int width, int height) {
+  const double num_pixels = static_cast<double>(width) * height;
+  const double scale = num_pixels <= 1.1 * kSmallPixels ? 1 : std::sqrt(num_pixels / kSmallPixels);
+  return {std::max(1, static_cast<int>(std::lround(width / scale))),
+          std::max(1, static_cast<int>(std::lround(height / scale)))};
+}
+
 ShotFinder::SmallFrame ShotFinder::shrink(const Image& frame) const {
   const std::size_t num_values = 3 * static_cast<std::size_t>(small_width_) * static_cast<std::size_t>(small_height_);
   std::vector<int> sums(3 * static_cast<std::size_t>(small_width_));
@@ -101,9 +108,8 @@ ShotFinder::SmallFrame ShotFinder::shrink(const Image& frame) const {
 void ShotFinder::add(const Image& frame) {
   if (num_frames_ == 0) {
     width_ = frame.width, height_ = frame.height;
-    const double scale = std::max(1.0, std::sqrt(static_cast<double>(width_) * height_ / kSmallPixels));
-    small_width_ = std::max(1, static_cast<int>(std::lround(width_ / scale)));
-    small_height_ = std::max(1, static_cast<int>(std::lround(height_ / scale)));
+    const PictureSize small = small_size(width_, height_);
+    small_width_ = small.width, small_height_ = small.height;
   }
   if (frame.width != width_ || frame.height != height_)
     throw InvalidInput("frame " + std::to_string(num_frames_) + " is " + std::to_string(frame.width) + " × " +

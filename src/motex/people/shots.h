@@ -11,6 +11,10 @@
 
 namespace motex {
 
+struct PictureSize {
+  int width = 0, height = 0;
+};
+
 /// Where footage was cut.
 struct ShotReport {
   std::vector<FrameSpan> shots;    ///< unbroken views, one after another, all frames
@@ -30,6 +34,8 @@ struct ShotReport {
 class ShotFinder {
  public:
   explicit ShotFinder(double frames_per_sec);
+  /// What frames of that size are shrunk to; frames that come in that size already are taken as they are.
+  static PictureSize small_size(int width, int height);
   /// The next frame; all have one size. Throws InvalidInput for another.
   void add(const Image& frame);
   /// After the last frame; one shot when there is one.

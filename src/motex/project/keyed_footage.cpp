@@ -18,27 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr int kBatch = 8;  // frames at a time, for any number of threads
 
-/// Up to the best number of frames for a plate, evenly over that much of the video.
-std::vector<Image> frames_for_plate(const fs::path& video, std::int64_t first, std::int64_t num_frames,
-                                    const JobContext& job) {
-  JobContext quiet = job;
-  quiet.on_warning = nullptr;
-  VideoReader reader(video, {}, quiet);
-  const std::int64_t most = num_plate_frames(reader.info().width, reader.info().height);
-  const std::int64_t step = std::max<std::int64_t>(1, (num_frames + most - 1) / most);
-  std::vector<Image> frames;
-  if (step == 1 && first > 0) reader.seek(first);
-  for (std::int64_t idx = std::min(step / 2, num_frames - 1); idx < num_frames; idx += step) {
-    job.check_cancelled();
-    job.progress("looking for the empty scene", static_cast<double>(idx) / static_cast<double>(num_frames));
-    if (step > 1) reader.seek(first + idx);
-    VideoFrame frame;
-    if (!reader.next(frame)) break;
-    frames.push_back(std::move(frame.image));
-  }
-  return frames;
-}
-
 Image read_png(const fs::path& path) { return decode_png(read_file(path.string()), path.string()); }
 
 void check_size(const fs::path& path, const Image& picture, const VideoInfo& info) {
@@ -75,63 +54,125 @@ Mask garbage_mask_of(const Image& picture) {
 }
 
 KeyedFootage::KeyedFootage(const fs::path& video, const KeyFootageOptions& options, const JobContext& job)
-    : reader_(video, {}, job), job_(job), pictures_(kBatch), keyed_(kBatch) {
-  num_frames_ = static_cast<std::int64_t>(reader_.frame_times().size());
-  if (options.frames.length > 0) {
-    num_frames_ = std::clamp<std::int64_t>(num_frames_ - options.frames.start, 0, options.frames.length);
-    if (options.frames.start > 0) reader_.seek(options.frames.start);
-  }
-  if (reader_.info().num_channels == 4) return;
-  prepare(video, options, job);
-}
-
-void KeyedFootage::prepare(const fs::path& video, const KeyFootageOptions& options, const JobContext& job) {
-  Mask garbage;
+    : video_(video), options_(options), job_(job), reader_(video, {}, job), keyed_(kBatch) {
+  now_.pictures.resize(kBatch), ahead_.pictures.resize(kBatch);
+  FrameSpan span{0, static_cast<int>(reader_.frame_times().size())};
+  if (options.frames.length > 0)
+    span = {options.frames.start, std::clamp(span.length - options.frames.start, 0, options.frames.length)};
   if (!options.garbage_mask.empty()) {
     const Image picture = read_png(options.garbage_mask);
     check_size(options.garbage_mask, picture, info());
-    garbage = garbage_mask_of(picture);
+    garbage_ = garbage_mask_of(picture);
   }
-  const std::vector<Image> frames = frames_for_plate(video, options.frames.start, num_frames_, job);
-  CleanPlate plate;
-  if (options.plate_picture.empty()) {
-    try {
-      plate = estimate_clean_plate(frames, options.plate, garbage.width > 0 ? &garbage : nullptr, job);
-    } catch (const InvalidInput& error) {
-      throw InvalidInput(video.string() + ": " + error.what());
-    }
-  } else {
-    const Image picture = read_png(options.plate_picture);
-    check_size(options.plate_picture, picture, info());
-    plate = clean_plate_of(picture, frames, job);
+  if (!options.plate_picture.empty()) {
+    plate_picture_ = read_png(options.plate_picture);
+    check_size(options.plate_picture, plate_picture_, info());
   }
-  if (all_grey(frames))
-    job.warn(video.string() + ": is grey, so that only lightness tells the actor from the background");
+  scan_ = options.cuts ? scan_footage(reader_, span, job) : unbroken_footage(span);
+  job_.on_progress = nullptr;
+  for (const FrameSpan& shot : scan_.report.shots)
+    if (shot.length >= options.shortest_shot) num_frames_ += shot.length;
+  if (enter_next_shot()) fill(ahead_);
+}
+
+CleanPlate KeyedFootage::plate_of_scene(int scene) {
+  std::vector<FrameSpan> spans;
+  for (std::size_t k = 0; k < scan_.scenes.size(); ++k)
+    if (scan_.scenes[k] == scene) spans.push_back(scan_.report.shots[k]);
+  const std::vector<Image> frames = frames_for_plate(reader_, spans, scan_.plate_frames, job_);
+  CleanPlate plate = plate_picture_.pixels.empty()
+                         ? estimate_clean_plate(frames, options_.plate, garbage_.width > 0 ? &garbage_ : nullptr, job_)
+                         : clean_plate_of(plate_picture_, frames, job_);
+  tell_of(plate, frames);
+  return plate;
+}
+
+void KeyedFootage::tell_of(const CleanPlate& plate, const std::vector<Image>& frames) const {
+  const std::string name = video_.string();
+  if (all_grey(frames)) job_.warn(name + ": is grey, so that only lightness tells the actor from the background");
   if (plate.seen_share < 0.75 && plate.kind != ScreenKind::kNatural)
-    job.warn(video.string() + ": " + std::to_string(static_cast<int>(100 - 100 * plate.seen_share)) +
-             " % of the screen is never seen empty and filled in from around; a picture of the empty scene (--plate) "
-             "would help");
+    job_.warn(name + ": " + std::to_string(static_cast<int>(100 - 100 * plate.seen_share)) +
+              " % of the screen is never seen empty and filled in from around; a picture of the empty scene (--plate) "
+              "would help");
   if (plate.kind == ScreenKind::kNatural && plate.steady_share < 0.85)
-    job.warn(video.string() + ": " + std::to_string(static_cast<int>(100 - 100 * plate.steady_share)) +
-             " % of the background does not stay as it is (a camera that moves, changing light, leaves); the matte "
-             "will have faults there");
+    job_.warn(name + ": " + std::to_string(static_cast<int>(100 - 100 * plate.steady_share)) +
+              " % of the background does not stay as it is (a camera that moves, changing light, leaves); the matte "
+              "will have faults there");
+}
+
+void KeyedFootage::enter_scene(int scene) {
+  scene_ = scene;
+  keyers_.clear();
+  CleanPlate plate;
+  if (const auto known = plates_.find(scene); known != plates_.end()) {
+    plate = known->second;
+  } else {
+    try {
+      plate = plate_of_scene(scene);
+    } catch (const InvalidInput& error) {
+      const FrameSpan& shot = scan_.report.shots[static_cast<std::size_t>(shot_)];
+      const bool is_all = shot.length == num_frames_;
+      const std::string where = is_all ? ""
+                                       : " (frames " + std::to_string(shot.start) + " to " +
+                                             std::to_string(shot.end() - 1) + ", between cuts)";
+      trouble_ = video_.string() + where + ": " + error.what();
+      if (is_all) throw InvalidInput(trouble_);
+      job_.warn(trouble_);
+      return;
+    }
+  }
+  if (!first_plate_) first_plate_ = plate;
+  if (std::find(scan_.scenes.begin() + shot_ + 1, scan_.scenes.end(), scene) != scan_.scenes.end())
+    plates_[scene] = plate;
+  else
+    plates_.erase(scene);
   keyers_.reserve(kBatch);
-  keyers_.emplace_back(std::move(plate), options.key, garbage);
+  keyers_.emplace_back(std::move(plate), options_.key, garbage_);
   while (keyers_.size() < kBatch) keyers_.push_back(keyers_.front());
 }
 
-void KeyedFootage::read_batch() {
-  num_ready_ = next_ = 0;
-  while (num_ready_ < pictures_.size() && num_read_ < num_frames_ && reader_.next(pictures_[num_ready_]))
-    ++num_ready_, ++num_read_;
-  parallel_for(job_.jobs, static_cast<int>(num_ready_), [&](int task) {
-    const auto k = static_cast<std::size_t>(task);
-    if (keyers_.empty())
-      keyed_[k].sprite = sprite_of(pictures_[k].image);
+bool KeyedFootage::enter_next_shot() {
+  const std::vector<FrameSpan>& shots = scan_.report.shots;
+  const auto num_shots = static_cast<int>(shots.size());
+  do ++shot_;
+  while (shot_ < num_shots && shots[static_cast<std::size_t>(shot_)].length < options_.shortest_shot);
+  if (shot_ >= num_shots) return false;
+  const int scene = scan_.scenes[static_cast<std::size_t>(shot_)];
+  if (info().num_channels != 4 && scene != scene_) enter_scene(scene);
+  const FrameSpan& shot = shots[static_cast<std::size_t>(shot_)];
+  rest_of_shot_ = shot.length;
+  reader_.seek(shot.start);
+  return true;
+}
+
+void KeyedFootage::fill(Batch& batch) {
+  batch.size = 0;
+  batch.shot = shot_;
+  while (batch.size < batch.pictures.size() && rest_of_shot_ > 0) {
+    if (reader_.next(batch.pictures[batch.size]))
+      ++batch.size, --rest_of_shot_;
     else
-      keyers_[k].key(pictures_[k].image, keyed_[k].sprite);
-    keyed_[k].idx = pictures_[k].idx;
-    keyed_[k].time_secs = pictures_[k].time_secs;
+      rest_of_shot_ = 0;
+  }
+}
+
+/// Keys one batch while the next is read.
+void KeyedFootage::key_batch() {
+  std::swap(now_, ahead_);
+  next_ = 0;
+  parallel_for(job_.jobs, static_cast<int>(now_.size) + 1, [&](int task) {
+    if (task == 0) return fill(ahead_);
+    const auto k = static_cast<std::size_t>(task) - 1;
+    const VideoFrame& picture = now_.pictures[k];
+    if (info().num_channels == 4)
+      keyed_[k].sprite = sprite_of(picture.image);
+    else if (keyers_.empty())
+      keyed_[k].sprite = {};
+    else
+      keyers_[k].key(picture.image, keyed_[k].sprite);
+    keyed_[k].idx = picture.idx;
+    keyed_[k].time_secs = picture.time_secs;
+    keyed_[k].shot = now_.shot;
   });
 }
 
@@ -148,8 +189,16 @@ void KeyedFootage::take_notes(const KeyedFrame& frame) {
 }
 
 bool KeyedFootage::next(KeyedFrame& frame) {
-  if (next_ == num_ready_) read_batch();
-  if (num_ready_ == 0) return false;
+  if (next_ == now_.size) {
+    while (ahead_.size == 0) {
+      if (!enter_next_shot()) {
+        if (!first_plate_ && !trouble_.empty()) throw InvalidInput(trouble_);
+        return false;
+      }
+      fill(ahead_);
+    }
+    key_batch();
+  }
   std::swap(frame, keyed_[next_++]);
   take_notes(frame);
   return true;

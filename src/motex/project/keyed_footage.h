@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "motex/core/job.h"
@@ -13,6 +15,7 @@
 #include "motex/people/key.h"
 #include "motex/people/motif.h"
 #include "motex/people/sprite.h"
+#include "motex/project/footage_scan.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex {
@@ -22,14 +25,17 @@ struct KeyFootageOptions {
   KeyOptions key;
   std::filesystem::path plate_picture;  ///< of the empty scene; empty = estimated from the footage
   std::filesystem::path
-      garbage_mask;  ///< bright (or opaque, where the picture has alpha) = never the actor; empty = none
-  FrameSpan frames;  ///< of the video; length 0 = all
+      garbage_mask;       ///< bright (or opaque, where the picture has alpha) = never the actor; empty = none
+  FrameSpan frames;       ///< of the video; length 0 = all
+  bool cuts = true;       ///< look for hard cuts; false = the footage is one shot
+  int shortest_shot = 0;  ///< frames; shorter ones are passed over
 };
 
 struct KeyedFrame {
   Sprite sprite;
   std::int64_t idx = 0;
   double time_secs = 0;
+  int shot = 0;
 };
 
 /// What was seen while keying.
@@ -41,39 +47,64 @@ struct KeyFootageReport {
   double mean_area = 0;  ///< of alpha, share of the frame
 };
 
-/// A video keyed frame by frame in two passes: the first reads up to 48 frames spread over it for the clean plate, the
-/// second gives the frames in order; several are keyed at a time, with the same result for any number of threads.
-/// Footage that has alpha already is taken as it is.
+/// A video keyed frame by frame in two passes: the first looks for hard cuts and takes frames for the clean plate as
+/// they go by, the second gives the frames in order. Shots before one background share a plate, each other one has its
+/// own. Frames are keyed several at a time, while the next ones are read, with the same result for any number of
+/// threads. Footage that has alpha already is taken as it is.
 ///
 ///   KeyedFootage footage("take1.mp4", {}, job);
 ///   for (KeyedFrame frame; footage.next(frame);) use(frame.sprite);
 class KeyedFootage {
  public:
-  /// Reads the plate's frames. Throws InvalidInput (nothing to key by, a moving camera, a plate or mask of another
-  /// size) naming the file, and what VideoReader throws.
+  /// The first pass. Throws what VideoReader throws, and InvalidInput naming the file: nothing to key by, a moving
+  /// camera, a plate or mask of another size. Where only some shots cannot be keyed that is a warning and they are
+  /// empty; where none can, next() throws after the last.
   explicit KeyedFootage(const std::filesystem::path& video, const KeyFootageOptions& options = {},
                         const JobContext& job = {});
+  KeyedFootage(const KeyedFootage&) = delete;
+  KeyedFootage& operator=(const KeyedFootage&) = delete;
 
   const VideoInfo& info() const { return reader_.info(); }
   std::int64_t num_frames() const { return num_frames_; }
-  /// Nothing where the footage has alpha of its own.
-  const CleanPlate* plate() const { return keyers_.empty() ? nullptr : &keyers_[0].plate(); }
+  /// Frames count as in the video.
+  const ShotReport& shots() const { return scan_.report; }
+  /// Of the first shot that has one; nothing where the footage has alpha of its own.
+  const CleanPlate* plate() const { return first_plate_ ? &*first_plate_ : nullptr; }
   /// The next frame; false after the last.
   bool next(KeyedFrame& frame);
   const KeyFootageReport& report() const { return report_; }
 
  private:
-  void prepare(const std::filesystem::path& video, const KeyFootageOptions& options, const JobContext& job);
-  void read_batch();
+  /// Frames on their way.
+  struct Batch {
+    std::vector<VideoFrame> pictures;
+    std::size_t size = 0;
+    int shot = 0;
+  };
+  CleanPlate plate_of_scene(int scene);
+  void tell_of(const CleanPlate& plate, const std::vector<Image>& frames) const;
+  void enter_scene(int scene);
+  bool enter_next_shot();
+  void fill(Batch& batch);
+  void key_batch();
   void take_notes(const KeyedFrame& frame);
 
-  VideoReader reader_;
+  std::filesystem::path video_;
+  KeyFootageOptions options_;
   JobContext job_;
-  std::int64_t num_frames_ = 0, num_read_ = 0;
-  std::vector<Keyer> keyers_;  // one for each frame of a batch
-  std::vector<VideoFrame> pictures_;
+  VideoReader reader_;
+  FootageScan scan_;
+  Mask garbage_;
+  Image plate_picture_;
+  std::int64_t num_frames_ = 0;
+  int shot_ = -1, scene_ = -1, rest_of_shot_ = 0;
+  std::map<int, CleanPlate> plates_;  // of scenes that come back
+  std::optional<CleanPlate> first_plate_;
+  std::string trouble_;        // why there is no plate
+  std::vector<Keyer> keyers_;  // one for each frame of a batch; none where the background is not known
+  Batch now_, ahead_;
   std::vector<KeyedFrame> keyed_;
-  std::size_t num_ready_ = 0, next_ = 0;
+  std::size_t next_ = 0;
   KeyFootageReport report_;
 };
 

@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "motex/core/error.h"
 #include "motex/people/people_tracks.h"
-#include "motex/people/shots.h"
 #include "motex/video_io/video_reader.h"
 
 namespace motex {
 namespace {
 
 constexpr double kShortestTakeSecs = 0.5;
-constexpr double kShareOfShots = 0.3;  // of the time: the first pass only decodes
+constexpr double kShareOfShots = 0.3;  // of the time: the first pass hardly does more than decode
 
 std::string frame_list(const std::vector<int>& frames) {
   constexpr std::size_t kMost = 12;
@@ -27,31 +27,11 @@ std::string frame_list(const std::vector<int>& frames) {
   return frames.size() > kMost ? out + ", …" : out;
 }
 
-ShotReport find_shots(const std::filesystem::path& video, const JobContext& job) {
-  VideoReader reader(video, {}, job);
-  const VideoInfo& info = reader.info();
-  ShotFinder finder(info.frames_per_sec > 0 ? info.frames_per_sec : 25);
-  const auto expected = static_cast<double>(std::max<std::int64_t>(1, info.num_frames_said));
-  for (VideoFrame frame; reader.next(frame);) {
-    job.check_cancelled();
-    job.progress("looking for cuts", static_cast<double>(frame.idx) / expected);
-    finder.add(frame.image);
-  }
-  return finder.finish();
-}
-
-ShotReport whole(const std::filesystem::path& video) {
-  ShotReport report;
-  const auto num_frames = static_cast<int>(VideoReader(video).frame_times().size());
-  if (num_frames > 0) report.shots.push_back({0, num_frames});
-  return report;
-}
-
 /// Reads one shot into takes, one a track.
 class ShotOfPeople {
  public:
-  ShotOfPeople(const std::string& source, const FrameSpan& shot, const TakeSink& sink, int first_track)
-      : source_(source), shot_(shot), sink_(sink), first_track_(first_track) {}
+  ShotOfPeople(const std::string& source, const TakeSink& sink, int first_track)
+      : source_(source), sink_(sink), first_track_(first_track) {}
 
   void add(const Sprite& sprite, int frame) {
     tracker_.add(sprite, people_);
@@ -96,7 +76,6 @@ class ShotOfPeople {
   }
 
   std::string source_;
-  FrameSpan shot_;
   const TakeSink& sink_;
   int first_track_;
   PeopleTracker tracker_;
@@ -153,59 +132,87 @@ struct Notes {
   }
 };
 
-void key_shot(const std::filesystem::path& video, const FrameSpan& shot, KeyFootageOptions options,
-              const TakeSink& sink, int shortest, PeopleFootage& footage, Notes& notes, int& num_tracks,
-              const JobContext& job) {
-  options.frames = shot;
-  KeyedFootage keyed(video, options, job);
-  if (footage.plate.pixels.empty() && keyed.plate() != nullptr) footage.plate = keyed.plate()->picture;
-  ShotOfPeople people(video.filename().string(), shot, sink, num_tracks);
-  for (KeyedFrame frame; keyed.next(frame);) {
-    job.check_cancelled();
-    job.progress("keying", static_cast<double>(frame.idx - shot.start) / shot.length);
-    people.add(frame.sprite, static_cast<int>(frame.idx));
+/// Reads a video shot by shot.
+class FootageOfPeople {
+ public:
+  FootageOfPeople(const std::string& source, const TakeSink& sink, int shortest, PeopleFootage& footage)
+      : source_(source), sink_(sink), shortest_(shortest), footage_(footage) {}
+
+  void add(const KeyedFrame& frame) {
+    if (!shot_ || frame.shot != idx_) {
+      finish_shot();
+      idx_ = frame.shot;
+      start_ = static_cast<int>(frame.idx);
+      shot_.emplace(source_, sink_, num_tracks_);
+    }
+    shot_->add(frame.sprite, static_cast<int>(frame.idx));
   }
-  num_tracks += people.num_tracks();
-  for (const TrackEvent& event : people.events())
-    (event.kind == TrackEvent::Kind::kTouched ? notes.touched : notes.parted).push_back(shot.start + event.frame);
-  std::vector<FilmedTake> takes = people.finish(shortest, notes.num_short);
-  leave_out_things(takes, notes.num_things);
-  for (std::size_t k = 0; k < takes.size(); ++k) {
-    takes[k].take.person = static_cast<int>(k);
-    footage.takes.push_back(std::move(takes[k]));
+
+  void finish_shot() {
+    if (!shot_) return;
+    num_tracks_ += shot_->num_tracks();
+    for (const TrackEvent& event : shot_->events())
+      (event.kind == TrackEvent::Kind::kTouched ? notes.touched : notes.parted).push_back(start_ + event.frame);
+    std::vector<FilmedTake> takes = shot_->finish(shortest_, notes.num_short);
+    leave_out_things(takes, notes.num_things);
+    for (std::size_t k = 0; k < takes.size(); ++k) {
+      takes[k].take.person = static_cast<int>(k);
+      footage_.takes.push_back(std::move(takes[k]));
+    }
+    shot_.reset();
   }
+
+  Notes notes;
+
+ private:
+  std::string source_;
+  const TakeSink& sink_;
+  int shortest_, idx_ = 0, start_ = 0, num_tracks_ = 0;
+  std::optional<ShotOfPeople> shot_;
+  PeopleFootage& footage_;
+};
+
+void check_length(const std::string& name, int num_frames, int shortest) {
+  if (num_frames < shortest)
+    throw InvalidInput(name + ": has " + std::to_string(num_frames) + " frames; " + std::to_string(shortest) +
+                       " at least (half a second) are needed");
 }
 
 }  // namespace
 
 PeopleFootage read_people_footage(const std::filesystem::path& video, const PeopleFootageOptions& options,
                                   const TakeSink& sink, const JobContext& job) {
+  const std::string name = video.string();
   PeopleFootage footage;
+  int shortest = 0;
   {
-    const VideoInfo info = VideoReader(video, {}, job).info();
+    VideoReader reader(video, {}, job);
+    const VideoInfo& info = reader.info();
     footage.width = info.width, footage.height = info.height;
     footage.frames_per_sec = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
+    shortest = std::max(3, static_cast<int>(std::lround(kShortestTakeSecs * footage.frames_per_sec)));
+    check_length(name, static_cast<int>(reader.frame_times().size()), shortest);
   }
-  ShotReport report = options.cuts ? find_shots(video, job.part(0, kShareOfShots)) : whole(video);
-  footage.shots = std::move(report.shots), footage.flashes = std::move(report.flashes);
-  const int shortest = std::max(3, static_cast<int>(std::lround(kShortestTakeSecs * footage.frames_per_sec)));
-  const double total = std::max(1, footage.shots.empty() ? 1 : footage.shots.back().end());
-  const int num_frames = footage.shots.empty() ? 0 : footage.shots.back().end();
-  if (num_frames < shortest)
-    throw InvalidInput(video.string() + ": has " + std::to_string(num_frames) + " frames; " + std::to_string(shortest) +
-                       " at least (half a second) are needed");
-  Notes notes;
-  int num_tracks = 0;
-  for (const FrameSpan& shot : footage.shots) {
-    if (shot.length < shortest) {
-      ++notes.num_short_shots;
-      continue;
-    }
-    const auto place = [&](int frame) { return kShareOfShots + (1 - kShareOfShots) * frame / total; };
-    key_shot(video, shot, options.key, sink, shortest, footage, notes, num_tracks,
-             job.part(place(shot.start), place(shot.end())));
+  KeyFootageOptions key = options.key;
+  key.frames = {};
+  key.cuts = options.cuts;
+  key.shortest_shot = shortest;
+  KeyedFootage keyed(video, key, job.part(0, kShareOfShots));
+  footage.shots = keyed.shots().shots, footage.flashes = keyed.shots().flashes;
+  check_length(name, footage.shots.empty() ? 0 : footage.shots.back().end(), shortest);
+  FootageOfPeople people(video.filename().string(), sink, shortest, footage);
+  const JobContext rest = job.part(kShareOfShots, 1);
+  const double total = footage.shots.back().end();
+  for (KeyedFrame frame; keyed.next(frame);) {
+    job.check_cancelled();
+    rest.progress("keying", static_cast<double>(frame.idx) / total);
+    people.add(frame);
   }
-  const std::string name = video.string();
+  people.finish_shot();
+  Notes& notes = people.notes;
+  notes.num_short_shots = static_cast<int>(std::count_if(
+      footage.shots.begin(), footage.shots.end(), [&](const FrameSpan& shot) { return shot.length < shortest; }));
+  if (keyed.plate() != nullptr) footage.plate = keyed.plate()->picture;
   if (footage.takes.empty() && !notes.touched.empty())
     throw InvalidInput(name + ": the people in it overlap; film them apart from one another, or one at a time");
   if (footage.takes.empty())

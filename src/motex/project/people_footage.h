@@ -14,7 +14,7 @@
 namespace motex {
 
 struct PeopleFootageOptions {
-  KeyFootageOptions key;  ///< its `frames` are not looked at: every shot has a clean plate of its own
+  KeyFootageOptions key;  ///< its `frames`, `cuts` and `shortest_shot` are not looked at
   bool cuts = true;       ///< look for hard cuts; false = the footage is one shot
 };
 
@@ -39,7 +39,7 @@ struct PeopleFootage {
 /// empty where nobody was seen in between.
 using TakeSink = std::function<void(int track, int frame_of_video, const Sprite& sprite)>;
 
-/// Reads a video twice: for hard cuts (ShotFinder), then shot by shot keyed (KeyedFootage) and taken apart into people
+/// Reads a video twice (KeyedFootage): for hard cuts, then shot by shot keyed and taken apart into people
 /// (PeopleTracker). Cuts, flashes, people who touch and takes that are left out are told as warnings. Throws
 /// InvalidInput: nobody is to be seen for half a second; people overlap throughout; and what KeyedFootage throws.
 PeopleFootage read_people_footage(const std::filesystem::path& video, const PeopleFootageOptions& options = {},

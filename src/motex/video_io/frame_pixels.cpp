@@ -123,11 +123,12 @@ void PixelConverter::set_size(int width, int height, Orientation orientation) {
 void PixelConverter::convert(const AVFrame& frame, int format, int bytes_per_pixel) {
   const AVPixelFormat source = plain_format(static_cast<AVPixelFormat>(frame.format));
   const int matrix = matrix_of(frame), range = is_full_range(frame) ? 1 : 0;
-  const int wanted[6] = {source, frame.width, frame.height, matrix, range, format};
+  const int wanted[8] = {source, frame.width, frame.height, matrix, range, format, width_, height_};
   if (scaler_ == nullptr || !std::equal(std::begin(wanted), std::end(wanted), made_for_)) {
-    constexpr int kFlags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT;
+    constexpr int kFlags = SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT;
+    const bool reduces = frame.width >= 2 * width_ && frame.height >= 2 * height_;
     scaler_.reset(sws_getContext(frame.width, frame.height, source, width_, height_, static_cast<AVPixelFormat>(format),
-                                 kFlags, nullptr, nullptr, nullptr));
+                                 kFlags | (reduces ? SWS_AREA : SWS_BICUBIC), nullptr, nullptr, nullptr));
     if (scaler_ == nullptr)
       throw UnsupportedFile(std::string("pixels of the kind ") + av_get_pix_fmt_name(source) + " cannot be read");
     sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(matrix), range, sws_getCoefficients(matrix), 1, 0,

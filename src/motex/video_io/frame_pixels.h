@@ -21,8 +21,10 @@ Orientation orientation_of(const void* display_matrix);
 /// on, else BT.601, and studio range for Y'CbCr (JPEG formats say otherwise).
 class PixelConverter {
  public:
-  /// Frames of another size than this are scaled to it.
+  /// Frames of another size than this are scaled to it: smaller ones by cubic interpolation, those of at least twice
+  /// the size by averaging.
   void set_size(int width, int height, Orientation orientation);
+  Orientation orientation() const { return orientation_; }
   void to_image(const AVFrame& frame, Image& image);
   void to_planes(const AVFrame& frame, Planes& planes);
 
@@ -30,7 +32,7 @@ class PixelConverter {
   /// Converts to `format` (an AVPixelFormat) with `bytes_per_pixel` bytes in buffer_, unturned.
   void convert(const AVFrame& frame, int format, int bytes_per_pixel);
   Handle<SwsContext> scaler_;
-  int made_for_[6] = {-1, 0, 0, 0, 0, 0};  ///< source format, width, height, matrix, range, target format
+  int made_for_[8] = {-1, 0, 0, 0, 0, 0, 0, 0};  ///< source format, width, height, matrix, range, target format, size
   int width_ = 0, height_ = 0;
   Orientation orientation_;
   std::vector<std::uint8_t> buffer_;

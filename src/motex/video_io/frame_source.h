@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "motex/image/image.h"
 #include "motex/image/planes.h"
 #include "motex/video_io/video_info.h"
 
@@ -22,10 +23,14 @@ class FrameSource {
   virtual std::int64_t idx() const = 0;
   virtual void to_image(Image& image) const = 0;
   virtual void to_planes(Planes& planes) const = 0;
+  /// The present frame reduced to width × height by averaging, or larger where that costs no less.
+  virtual void to_preview(Image& image, int width, int height) const;
   /// The next advance() gives frame `idx`, or false when there are fewer.
   virtual void seek(std::int64_t idx) = 0;
   /// Times of all frames; what it costs is reading the file, decoding only where time stamps are missing.
   virtual std::vector<double> frame_times() = 0;
 };
+
+inline void FrameSource::to_preview(Image& image, int, int) const { to_image(image); }
 
 }  // namespace motex

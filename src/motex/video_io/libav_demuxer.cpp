@@ -106,17 +106,19 @@ int Demuxer::read(AVPacket& packet) {
   }
 }
 
-std::vector<double> packet_times(Demuxer& demuxer) {
+PacketTimes packet_times(Demuxer& demuxer) {
   const AVStream& stream = demuxer.stream();
   const double tick_secs = av_q2d(stream.time_base);
   const Handle<AVPacket> packet = new_packet();
-  std::vector<double> times;
+  PacketTimes times;
   while (demuxer.read(*packet) >= 0) {
     if (!is_shown(*packet, stream.codecpar->codec_id)) continue;
     if (packet->pts == AV_NOPTS_VALUE) return {};
-    times.push_back(static_cast<double>(packet->pts) * tick_secs);
+    times.shown.push_back(static_cast<double>(packet->pts) * tick_secs);
+    if ((packet->flags & AV_PKT_FLAG_KEY) != 0) times.keys.push_back(times.shown.back());
   }
-  std::sort(times.begin(), times.end());
+  std::sort(times.shown.begin(), times.shown.end());
+  std::sort(times.keys.begin(), times.keys.end());
   return times;
 }
 

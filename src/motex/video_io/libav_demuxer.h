@@ -36,8 +36,12 @@ class Demuxer {
   int stream_idx_ = -1;
 };
 
-/// Times in seconds (absolute) of all shown frames by the time stamps of their packets, rising; empty when some packet
-/// has none. Throws Cancelled.
-std::vector<double> packet_times(Demuxer& demuxer);
+struct PacketTimes {
+  std::vector<double> shown;  ///< of all shown frames, seconds (absolute), rising
+  std::vector<double> keys;   ///< of those at which decoding can begin
+};
+
+/// By the time stamps of the packets; empty when some packet has none. Throws Cancelled.
+PacketTimes packet_times(Demuxer& demuxer);
 
 }  // namespace motex::libav

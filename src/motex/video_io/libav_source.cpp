@@ -186,55 +186,85 @@ void LibavSource::finish() {
 void LibavSource::to_image(Image& image) const { converter_.to_image(*frame_, image); }
 void LibavSource::to_planes(Planes& planes) const { converter_.to_planes(*frame_, planes); }
 
+void LibavSource::to_preview(Image& image, int width, int height) const {
+  const Orientation orientation = converter_.orientation();
+  const bool upright = orientation.quarter_turns % 2 == 0;
+  reducer_.set_size(upright ? width : height, upright ? height : width, orientation);
+  reducer_.to_image(*frame_, image);
+}
+
 std::vector<double> LibavSource::frame_times() {
-  if (!times_.empty()) return times_;
+  if (times_.empty()) scan_times();
+  return times_;
+}
+
+void LibavSource::scan_times() {
   std::unique_ptr<InputBytes> again = input_->again();
   if (again == nullptr) throw InvalidInput(info_.name + ": a pipe cannot be read twice; save it as a file first");
   JobContext quiet = job_;
   quiet.on_warning = nullptr;
   {
     Demuxer scan(*again, info_.name, quiet);
-    times_ = packet_times(scan);
+    PacketTimes found = packet_times(scan);
+    times_ = std::move(found.shown), key_times_ = std::move(found.keys);
   }
-  for (double& time : times_) time -= first_secs_;
-  times_.erase(times_.begin(), std::find_if(times_.begin(), times_.end(), [](double time) { return time > -1e-6; }));
+  for (auto* times : {&times_, &key_times_}) {
+    for (double& time : *times) time -= first_secs_;
+    times->erase(times->begin(), std::find_if(times->begin(), times->end(), [](double time) { return time > -1e-6; }));
+  }
   const bool strictly_rising = std::adjacent_find(times_.begin(), times_.end(), std::greater_equal<>()) == times_.end();
-  if (!times_.empty() && strictly_rising) return times_;
-  times_.clear();
+  if (!times_.empty() && strictly_rising) return;
+  times_.clear(), key_times_.clear();
   LibavSource whole(input_->again(), info_.name, quiet);
   while (whole.advance()) times_.push_back(whole.time_secs());
-  return times_;
+}
+
+bool LibavSource::is_ahead(std::int64_t idx) const {
+  if (has_ended_ || idx <= idx_) return false;
+  const double next = times_[static_cast<std::size_t>(idx_ + 1)], target = times_[static_cast<std::size_t>(idx)];
+  const auto key = std::upper_bound(key_times_.begin(), key_times_.end(), target + 1e-6);
+  return key == key_times_.begin() || *(key - 1) <= next + 1e-6;
+}
+
+bool LibavSource::decode_to(std::int64_t idx) {
+  const double target = times_[static_cast<std::size_t>(idx)];
+  const double step = 1 / (info_.frames_per_sec > 0 ? info_.frames_per_sec : 25);
+  while (has_pending_ || decode()) {
+    has_pending_ = false;
+    if (frame_->best_effort_timestamp == AV_NOPTS_VALUE) return false;
+    const double time =
+        static_cast<double>(frame_->best_effort_timestamp) * av_q2d(demuxer_->stream().time_base) - first_secs_;
+    if (!same_time(time, target, step)) {
+      if (time < target) continue;
+      return false;
+    }
+    has_pending_ = true;
+    idx_ = idx - 1;
+    time_secs_ = idx > 0 ? times_[static_cast<std::size_t>(idx - 1)] : 0;
+    return true;
+  }
+  return false;
 }
 
 void LibavSource::seek(std::int64_t idx) {
-  const std::vector<double> times = frame_times();
-  has_sought_ = true;
-  if (idx < 0 || idx >= static_cast<std::int64_t>(times.size())) {
+  if (times_.empty()) scan_times();
+  has_sought_ = idx > 0;
+  if (idx < 0 || idx >= static_cast<std::int64_t>(times_.size())) {
     has_ended_ = true;
     return;
   }
-  const double target = times[static_cast<std::size_t>(idx)];
-  const double step = 1 / (info_.frames_per_sec > 0 ? info_.frames_per_sec : 25);
+  if (is_ahead(idx) && decode_to(idx)) return;
   const AVStream& stream = demuxer_->stream();
-  const auto ticks = static_cast<std::int64_t>(std::floor((target + first_secs_) / av_q2d(stream.time_base)));
+  const double target = times_[static_cast<std::size_t>(idx)] + first_secs_;
+  const auto ticks = static_cast<std::int64_t>(std::floor(target / av_q2d(stream.time_base)));
   if (idx > 8 && av_seek_frame(&demuxer_->format(), stream.index, ticks, AVSEEK_FLAG_BACKWARD) >= 0) {
     avcodec_flush_buffers(codec_.get());
     draining_ = has_ended_ = has_pending_ = false;
-    for (bool early = true; early && decode();) {
-      if (frame_->best_effort_timestamp == AV_NOPTS_VALUE) break;
-      const double time = static_cast<double>(frame_->best_effort_timestamp) * av_q2d(stream.time_base) - first_secs_;
-      early = time < target && !same_time(time, target, step);
-      if (!early && same_time(time, target, step)) {
-        has_pending_ = true;
-        idx_ = idx - 1;
-        time_secs_ = idx > 0 ? times[static_cast<std::size_t>(idx - 1)] : 0;
-        return;
-      }
-    }
+    if (decode_to(idx)) return;
   }
   restart();  // the container cannot be sought in exactly: from the beginning
   while (idx_ + 1 < idx && decode()) ++idx_;
-  time_secs_ = idx > 0 ? times[static_cast<std::size_t>(idx - 1)] : 0;
+  time_secs_ = idx > 0 ? times_[static_cast<std::size_t>(idx - 1)] : 0;
 }
 
 }  // namespace motex::libav

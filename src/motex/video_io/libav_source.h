@@ -27,6 +27,7 @@ class LibavSource : public FrameSource {
   std::int64_t idx() const override { return idx_; }
   void to_image(Image& image) const override;
   void to_planes(Planes& planes) const override;
+  void to_preview(Image& image, int width, int height) const override;
   void seek(std::int64_t idx) override;
   std::vector<double> frame_times() override;
 
@@ -39,6 +40,12 @@ class LibavSource : public FrameSource {
   bool feed();
   void take_time();
   void finish();
+  /// Reads times_ and key_times_.
+  void scan_times();
+  /// Whether frame `idx` lies ahead and no place to begin decoding at lies between.
+  bool is_ahead(std::int64_t idx) const;
+  /// Decodes up to frame `idx`, which is pending then; false where no frame has its time.
+  bool decode_to(std::int64_t idx);
 
   std::unique_ptr<InputBytes> input_;
   JobContext job_;
@@ -48,8 +55,10 @@ class LibavSource : public FrameSource {
   Handle<AVFrame> frame_;
   Handle<AVPacket> packet_;
   mutable PixelConverter converter_;
-  std::vector<double> times_;  ///< of all frames, once asked for
-  bool has_pending_ = false;   ///< frame_ has been decoded and not yet handed out
+  mutable PixelConverter reducer_;  ///< for previews
+  std::vector<double> times_;       ///< of all frames, once asked for
+  std::vector<double> key_times_;   ///< of those at which decoding can begin; empty where that is not known
+  bool has_pending_ = false;        ///< frame_ has been decoded and not yet handed out
   bool draining_ = false, has_ended_ = false, warned_ = false, warned_size_ = false;
   bool cut_off_ = false;  ///< reading the container ended with an error
   bool has_sought_ = false;

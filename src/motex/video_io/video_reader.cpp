@@ -58,11 +58,19 @@ VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
 
 const VideoInfo& VideoReader::info() const { return source_->info(); }
 
-bool VideoReader::next(VideoFrame& frame) {
-  if (!source_->advance()) return false;
+bool VideoReader::advance() { return source_->advance(); }
+
+void VideoReader::read(VideoFrame& frame) {
   source_->to_image(frame.image);
   frame.idx = source_->idx();
   frame.time_secs = source_->time_secs();
+}
+
+void VideoReader::read_preview(Image& image, int width, int height) { source_->to_preview(image, width, height); }
+
+bool VideoReader::next(VideoFrame& frame) {
+  if (!advance()) return false;
+  read(frame);
   return true;
 }
 

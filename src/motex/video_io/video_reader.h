@@ -47,7 +47,15 @@ class VideoReader {
   /// The next frame; false after the last.
   bool next(VideoFrame& frame);
   bool next(DeepVideoFrame& frame);
-  /// The next frame is number idx ≥ 0; next() is false when there are fewer. Decodes from the key frame before it.
+  /// Moves to the next frame without its pixels; false after the last.
+  bool advance();
+  /// The frame moved to last.
+  void read(VideoFrame& frame);
+  /// The same reduced to width × height by averaging, at a small part of the cost; larger where that would not save any
+  /// (pictures).
+  void read_preview(Image& image, int width, int height);
+  /// The next frame is number idx ≥ 0; next() is false when there are fewer. Decodes from the key frame before it,
+  /// or reads on where there is none in between.
   void seek(std::int64_t idx);
   /// The next frame is the one shown at that time: the last whose time_secs is not later.
   void seek_secs(double time_secs);
