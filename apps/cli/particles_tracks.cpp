@@ -100,7 +100,7 @@ struct Tracks {
   void run(Session& session) {
     check_request(session);
     Value object;
-    const Followed followed = detections.empty() ? of_model() : of_points(object);
+    const Followed followed = detections.empty() ? of_model() : of_points(object, session.job());
     const TrackedClip clip = described(followed.model);
     if (session.flags.dry_run) return would_write(outputs, followed.model.num_frames, session);
     for (std::size_t k = 0; k < outputs.size(); ++k) {
@@ -134,7 +134,7 @@ struct Tracks {
     return {std::move(tracks), std::move(model)};
   }
 
-  Followed of_points(Value& object) const {
+  Followed of_points(Value& object, const JobContext& job) const {
     Followed followed;
     TexturedMotion& model = followed.model;
     if (!model_path.empty()) model = load_particles_model(model_path);
@@ -149,7 +149,7 @@ struct Tracks {
     model.num_frames = static_cast<std::int64_t>(frames.size());
     LinkReport report;
     followed.tracks =
-        visible_part(link_points(frames, model.width, model.height, {}, &report), model.width, model.height);
+        visible_part(link_points(frames, model.width, model.height, {}, &report, job), model.width, model.height);
     object["detections"] = detections;
     object["dropped_detections"] = report.num_dropped;
     object["filled_points"] = report.num_filled;

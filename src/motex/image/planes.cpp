@@ -104,6 +104,11 @@ Plane luma(const Planes& planes) {
   return out;
 }
 
+Plane negated(Plane plane) {
+  for (float& value : plane.values) value = -value;
+  return plane;
+}
+
 Plane minus(Plane a, const Plane& b) {
   if (a.width != b.width || a.height != b.height)
     throw InvalidInput("only planes of one size can be subtracted from one another");

@@ -57,6 +57,7 @@ Plane luma(const Planes& planes);
 
 /// a − b. Throws InvalidInput unless the sizes are equal.
 Plane minus(Plane a, const Plane& b);
+Plane negated(Plane plane);
 /// Plane by plane. Throws InvalidInput unless there are as many.
 Planes minus(Planes a, const Planes& b);
 /// Σ v² over the pixels.

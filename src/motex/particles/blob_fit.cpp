@@ -132,6 +132,36 @@ bool BlobFitter::split(std::size_t idx, double min_gain) {
   return false;
 }
 
+/// What fit() minimises, over the whole image.
+double BlobFitter::cost() const {
+  double energy = 0, priors = 0;
+  for (const float value : residual_.values) energy += static_cast<double>(value) * static_cast<double>(value);
+  for (std::size_t k = 0; k < blobs_.size(); ++k) {
+    const Blob& b = blobs_[k];
+    const std::array<double, 6> values{b.x, b.y, b.log_scale, b.e1, b.e2, b.amplitude};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      priors += priors_[k].precision[i] * square(values[i] - priors_[k].mean[i]);
+  }
+  return energy / (options_.noise * options_.noise) + priors;
+}
+
+bool BlobFitter::add_beside(std::size_t idx, const std::vector<std::pair<Blob, BlobPrior>>& added, double max_loss) {
+  const Plane residual = residual_;
+  const std::vector<Blob> blobs = blobs_;
+  const std::vector<BlobPrior> priors = priors_;
+  const std::vector<char> is_settled = is_settled_;
+  const double before = cost();
+  priors_[idx] = {};
+  for (const auto& [blob, prior] : added) add(blob, prior);
+  fit(2);
+  if (cost() < before + max_loss) return true;
+  residual_ = residual;
+  blobs_ = blobs;
+  priors_ = priors;
+  is_settled_ = is_settled;
+  return false;
+}
+
 std::vector<std::vector<int>> BlobFitter::clusters() const {
   // Nearest pairs first, so that a cluster that grows too large keeps those that overlap most.
   struct Pair {

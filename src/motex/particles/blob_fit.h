@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "motex/image/planes.h"
@@ -22,8 +23,9 @@ struct Blob {
   double log_scale_spread = 0, amplitude_spread = 0;
 
   double scale() const;
-  double aspect() const;  ///< e^e ≥ 1: length by breadth
-  double angle() const;   ///< of its long axis, radians in [0, π)
+  double aspect() const;       ///< e^e ≥ 1: length by breadth
+  double angle() const;        ///< of its long axis, radians in [0, π)
+  double energy_root() const;  ///< of the sum of its squares, |A| s √π
 };
 
 /// What is known of a blob before the picture is looked at: independent normal distributions of x, y, ln s, e₁, e₂, A.
@@ -58,6 +60,10 @@ class BlobFitter {
   /// min_gain or more; the second is added at the end.
   bool split(std::size_t idx, double min_gain);
 
+  /// Adds blobs that may share the light of idx, whose prior is dropped; undone (false) when the sum that fit()
+  /// minimises rises by more than max_loss.
+  bool add_beside(std::size_t idx, const std::vector<std::pair<Blob, BlobPrior>>& added, double max_loss);
+
   const std::vector<Blob>& blobs() const { return blobs_; }
   double noise() const { return options_.noise; }
   const Plane& residual() const { return residual_; }  ///< image − Σ blobs
@@ -67,6 +73,7 @@ class BlobFitter {
  private:
   std::vector<std::vector<int>> clusters() const;
   double cost_near(const Blob& blob) const;
+  double cost() const;
   bool fit_cluster(const std::vector<int>& members);
   void unsettle_near(const Blob& blob);
   void paint(const Blob& blob, float sign);

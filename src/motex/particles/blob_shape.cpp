@@ -15,6 +15,7 @@ constexpr double kReach = 3.3;  // deviations; e^{−3.3²/2} = 0.004
 }  // namespace
 
 double Blob::scale() const { return std::exp(log_scale); }
+double Blob::energy_root() const { return std::abs(amplitude) * scale() * std::sqrt(std::numbers::pi); }
 double Blob::aspect() const { return std::exp(std::hypot(e1, e2)); }
 double Blob::angle() const {
   const double angle = 0.5 * std::atan2(e2, e1);

@@ -13,6 +13,9 @@ namespace motex {
 enum class CoreSign { kAuto, kBright, kDark, kBoth };
 enum class CoreShape { kAuto, kRound, kOriented };
 
+/// Of the amplitude that most of the energy of a clip has: the least one of its elements.
+inline constexpr double kFaintShare = 0.08;
+
 struct DetectOptions {
   double min_significance = 7;
   double min_scale = kMinScale;
@@ -50,7 +53,8 @@ struct ExpectedBlob {
   Blob blob;        ///< to begin the fit with
   BlobPrior prior;  ///< amplitudes of the prior have the sign of the element
   bool is_seen =
-      true;  ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
+      true;            ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
+  int num_sights = 0;  ///< of its path
 };
 
 /// Elements of one frame (residual = luma minus background) as Gaussian spots fitted jointly with their neighbours:

@@ -127,7 +127,7 @@ bool is_element(const SightChain& chain, const ElementModel& model, int width, i
 }  // namespace
 
 std::vector<SightChain> link_chains(const SightFrames& frames, int width, int height, const LinkOptions& options,
-                                    const ElementModel* start, LinkReport& report) {
+                                    const ElementModel* start, LinkReport& report, const JobContext& job) {
   report = {};
   std::vector<std::vector<Base>> places(frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t)
@@ -135,7 +135,7 @@ std::vector<SightChain> link_chains(const SightFrames& frames, int width, int he
   report.flow = estimate_flow(places, options.max_speed);
   const auto [w, h] = extent_of(frames, width, height);
   const ElementModel first = start != nullptr ? *start : first_element_model(frames, report.flow, w, h);
-  LinkedSights found = link_sights(frames, first, {w, h, options.max_gap, options.sweeps});
+  LinkedSights found = link_sights(frames, first, {w, h, options.max_gap, options.sweeps}, job);
   report.model = found.model;
   report.expected_wrong_share = found.expected_wrong_share;
   report.num_links = found.num_links;
@@ -154,7 +154,7 @@ std::vector<SightChain> link_chains(const SightFrames& frames, int width, int he
 }
 
 std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int width, int height,
-                              const LinkOptions& options, LinkReport* report) {
+                              const LinkOptions& options, LinkReport* report, const JobContext& job) {
   SightFrames sights(frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t)
     for (const Base& base : frames[t])
@@ -162,7 +162,7 @@ std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int 
   LinkReport own;
   LinkReport& out = report != nullptr ? *report : own;
   std::vector<Cable> cables;
-  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out)) {
+  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out, job)) {
     const std::vector<SmoothedPlace> places = smooth_path(out.model, chain.sights);
     Cable cable;
     cable.first_frame = chain.sights.front().frame;
@@ -188,7 +188,7 @@ std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int 
 }
 
 std::vector<Track> link_points(const std::vector<std::vector<TrackPoint>>& frames, int width, int height,
-                               const LinkOptions& options, LinkReport* report) {
+                               const LinkOptions& options, LinkReport* report, const JobContext& job) {
   SightFrames sights(frames.size());
   for (std::size_t t = 0; t < frames.size(); ++t)
     for (const TrackPoint& point : frames[t])
@@ -196,7 +196,7 @@ std::vector<Track> link_points(const std::vector<std::vector<TrackPoint>>& frame
   LinkReport own;
   LinkReport& out = report != nullptr ? *report : own;
   std::vector<Track> tracks;
-  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out)) {
+  for (const SightChain& chain : link_chains(sights, width, height, options, nullptr, out, job)) {
     const std::vector<SmoothedPlace> places = smooth_path(out.model, chain.sights);
     Track track;
     track.id = static_cast<std::int64_t>(tracks.size());

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "motex/core/job.h"
 #include "motex/core/options.h"
 #include "motex/particles/cable.h"
 #include "motex/particles/element_filter.h"
@@ -45,19 +46,23 @@ struct LinkReport {
 /// elements move; link_sights() joins and learns; places are smoothed by the learned dynamics and gaps filled.
 /// Nothing about speed or flow needs to be told.
 /// width, height: of the picture (0 = unknown): elements that enter or leave it may be short.
-/// Cables in order of first frame. Deterministic. Throws InvalidInput when a detection is not finite.
+/// Cables in order of first frame. Deterministic. Throws InvalidInput when a detection is not finite,
+/// Cancelled.
 std::vector<Cable> link_cores(const std::vector<std::vector<Base>>& frames, int width, int height,
-                              const LinkOptions& options = {}, LinkReport* report = nullptr);
+                              const LinkOptions& options = {}, LinkReport* report = nullptr,
+                              const JobContext& job = {});
 
 /// The same for points alone, frame by frame (frames[k] = points of frame k; their `frame` is not looked at); tracks
 /// are numbered from 0. Amplitudes and scales help where they differ from element to element.
 std::vector<Track> link_points(const std::vector<std::vector<TrackPoint>>& frames, int width, int height,
-                               const LinkOptions& options = {}, LinkReport* report = nullptr);
+                               const LinkOptions& options = {}, LinkReport* report = nullptr,
+                               const JobContext& job = {});
 
 /// The joining alone: paths of elements through sights (frames[t][i].frame = t), shorter ones dropped unless they cross
 /// the picture's edge or an end of the clip at both of their ends. start: what is known of the elements, nullptr =
 /// nothing.
 std::vector<SightChain> link_chains(const std::vector<std::vector<Sight>>& frames, int width, int height,
-                                    const LinkOptions& options, const ElementModel* start, LinkReport& report);
+                                    const LinkOptions& options, const ElementModel* start, LinkReport& report,
+                                    const JobContext& job = {});
 
 }  // namespace motex

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -177,6 +178,15 @@ TEST(LinkCores, AmplitudesTellCrossingElementsApart) {
   for (const Track& track : link_points(frames, 300, 120))
     for (const TrackPoint& point : track.points)
       EXPECT_LT(std::abs(std::log(point.amplitude / track.points[0].amplitude)), 0.5);
+}
+
+TEST(LinkPoints, CanBeStopped) {
+  const std::atomic<bool> stop{true};
+  JobContext job;
+  job.cancel = &stop;
+  std::vector<std::vector<TrackPoint>> frames(3);
+  for (std::size_t t = 0; t < frames.size(); ++t) frames[t].push_back({static_cast<int>(t), 10 + 2.0 * t, 20});
+  EXPECT_THROW(link_points(frames, 64, 48, {}, nullptr, job), Cancelled);
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ constexpr std::size_t kNearest = 10;  // joins looked at for each path and frame
 
 class Linker {
  public:
-  Linker(const std::vector<std::vector<Sight>>& frames, const ElementModel& model, const LinkSightsOptions& options)
-      : options_(options), model_(model), num_frames_(static_cast<int>(frames.size())) {
+  Linker(const std::vector<std::vector<Sight>>& frames, const ElementModel& model, const LinkSightsOptions& options,
+         const JobContext& job)
+      : options_(options), job_(job), model_(model), num_frames_(static_cast<int>(frames.size())) {
     for (const std::vector<Sight>& frame : frames) {
       first_of_frame_.push_back(static_cast<int>(sights_.size()));
       sights_.insert(sights_.end(), frame.begin(), frame.end());
@@ -142,6 +143,7 @@ class Linker {
   }
 
   void join_at(int cut) {
+    job_.check_cancelled();
     collect(cut);
     gains_.clear();
     tail_values_.assign(tails_.size(), 0);
@@ -280,6 +282,7 @@ class Linker {
   }
 
   LinkSightsOptions options_;
+  const JobContext& job_;
   ElementModel model_;
   PictureEdges edges_;
   int num_frames_;
@@ -298,8 +301,8 @@ class Linker {
 }  // namespace
 
 LinkedSights link_sights(const std::vector<std::vector<Sight>>& frames, const ElementModel& start,
-                         const LinkSightsOptions& options) {
-  return Linker(frames, start, options).run();
+                         const LinkSightsOptions& options, const JobContext& job) {
+  return Linker(frames, start, options, job).run();
 }
 
 }  // namespace motex

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "motex/core/job.h"
 #include "motex/particles/element_filter.h"
 
 namespace motex {
@@ -32,8 +33,8 @@ struct LinkedSights {
 /// frames the paths that end before it and those that begin after it are joined again in the best way (best_pairs,
 /// exact), where the likelihood of a join takes the last ten sights before the cut and the first five after it; cut
 /// after cut, sweep after sweep until no link changes; the model is fitted again after each sweep. frames[t][i].frame
-/// must be t.
+/// must be t. Throws Cancelled.
 LinkedSights link_sights(const std::vector<std::vector<Sight>>& frames, const ElementModel& start,
-                         const LinkSightsOptions& options);
+                         const LinkSightsOptions& options, const JobContext& job = {});
 
 }  // namespace motex

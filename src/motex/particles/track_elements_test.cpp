@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
 #include "motex/particles/cable_tracks.h"
+#include "motex/particles/simulate.h"
 #include "motex/particles/track_score.h"
 
 namespace motex {
@@ -107,6 +109,27 @@ TEST(TrackElements, AWrongBackgroundIsMended) {
   for (std::size_t i = 0; i < wrong.values.size(); ++i)
     error += std::abs(static_cast<double>(report.background.values[i] - snow.background.values[i]));
   EXPECT_LT(error / static_cast<double>(wrong.values.size()), 1.5);
+}
+
+TEST(TrackElements, SparksOfABurstBeginTogether) {
+  SimulateFireworksOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.frames = 44;
+  options.bursts = 1;
+  options.elements = 30;
+  options.speed = 1.7;
+  const SimulatedScene scene = simulate_fireworks(options);
+  const ClipFrames clip = clip_frames_of(scene);
+  const std::vector<Cable> cables = track_elements(clip, Plane(160, 120, 8.0F), 0, {});
+  const TrackingScore score =
+      score_tracks(tracks_of(true_cables(scene), clip.num_planes()), visible_part(tracks_of(cables, 1), 160, 120));
+  EXPECT_GT(score.beta, 0.85);
+  EXPECT_GT(score.jsc_tracks, 0.85);
+  const auto born = static_cast<std::int64_t>(std::ceil(scene.bursts[0].frame));
+  const auto num_on_time = std::count_if(cables.begin(), cables.end(),
+                                         [&](const Cable& cable) { return std::abs(cable.first_frame - born) <= 1; });
+  EXPECT_GT(num_on_time, 0.8 * static_cast<double>(cables.size()));
 }
 
 TEST(TrackElements, TheNumberOfThreadsChangesNothing) {
