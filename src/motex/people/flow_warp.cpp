@@ -52,6 +52,47 @@ double consistent_share(const WarpGrid& there, const WarpGrid& back, const Plane
   return all > 0 ? good / all : 0;
 }
 
+/// Along the columns or the rows of a grid: a mean of each point and its neighbours, ¼ ½ ¼, twice.
+void smooth(std::vector<float>& values, int columns, int rows) {
+  std::vector<float> before;
+  const auto pass = [&](std::size_t count, std::size_t step, std::size_t lines, std::size_t line_step) {
+    before = values;
+    for (std::size_t line = 0; line < lines; ++line)
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = line * line_step + k * step;
+        values[i] = (before[k > 0 ? i - step : i] + before[k + 1 < count ? i + step : i]) / 4 + before[i] / 2;
+      }
+  };
+  const auto width = static_cast<std::size_t>(columns), height = static_cast<std::size_t>(rows);
+  for (int repeat = 0; repeat < 2; ++repeat) pass(width, 1, height, width), pass(height, width, width, 1);
+}
+
+/// The flow where there and back ends where it began, the field of the lines where it does not: where limbs cover one
+/// another flow finds no counterpart and tears. Both are joined smoothly: field + mean of trust · (flow − field).
+WarpGrid trusted(const WarpGrid& there, const WarpGrid& back, const WarpGrid& field) {
+  WarpGrid joined = there;
+  for (int row = 0; row < there.rows; ++row) {
+    for (int column = 0; column < there.columns; ++column) {
+      const double x = column * there.spacing, y = row * there.spacing;
+      const std::size_t i = there.index(column, row);
+      const auto v = back.at(x + there.x[i], y + there.y[i]), f = field.at(x, y);
+      const double lost = std::hypot(there.x[i] + v.x, there.y[i] + v.y) / kThereAndBack;
+      const double trust = 1 / (1 + lost * lost * lost * lost);
+      joined.x[i] = static_cast<float>(trust * (there.x[i] - f.x));
+      joined.y[i] = static_cast<float>(trust * (there.y[i] - f.y));
+    }
+  }
+  smooth(joined.x, joined.columns, joined.rows), smooth(joined.y, joined.columns, joined.rows);
+  for (int row = 0; row < there.rows; ++row) {
+    for (int column = 0; column < there.columns; ++column) {
+      const auto f = field.at(column * there.spacing, row * there.spacing);
+      const std::size_t i = there.index(column, row);
+      joined.x[i] += static_cast<float>(f.x), joined.y[i] += static_cast<float>(f.y);
+    }
+  }
+  return joined;
+}
+
 /// For each grid point y of the film: x − y with x + share · flow(x) = y.
 WarpGrid warp_along(const WarpGrid& flow, double share) {
   WarpGrid warp = flow;
@@ -85,6 +126,11 @@ SpriteFlow sprite_flow(const PlacedSprite& a, const PlacedSprite& b, const std::
   flow.b_to_a = optical_flow(in_b, in_a, options, &start_b);
   flow.consistency =
       (consistent_share(flow.a_to_b, flow.b_to_a, in_a[1]) + consistent_share(flow.b_to_a, flow.a_to_b, in_b[1])) / 2;
+  if (!lines.empty()) {
+    const WarpGrid there = trusted(flow.a_to_b, flow.b_to_a, start_a);
+    flow.b_to_a = trusted(flow.b_to_a, flow.a_to_b, start_b);
+    flow.a_to_b = there;
+  }
   for (WarpGrid* grid : {&flow.a_to_b, &flow.b_to_a}) grid->left = flow.box.left, grid->top = flow.box.top;
   return flow;
 }

@@ -11,10 +11,8 @@ namespace motex {
 
 namespace {
 
-constexpr double kLeastConsistency = 0.5;  // share of pixels: below it flow has lost its way
-
-/// Shapes set out and arrive gently, so that velocities do not jump; colours follow Figure 6.
-double eased(double weight) { return weight * weight * (3 - 2 * weight); }
+/// Shapes set out and arrive without a jump of velocity or acceleration; colours follow Figure 6.
+double eased(double weight) { return weight * weight * weight * (10 - 15 * weight + 6 * weight * weight); }
 
 }  // namespace
 
@@ -68,8 +66,7 @@ void Transition::choose() {
   if (options_.renderer != TransitionRenderer::kAuto) return;
   report_.renderer = TransitionRenderer::kFieldMorph;
   double least = report_.morph_error;
-  if (report_.flow_error < least && report_.flow_consistency >= kLeastConsistency)
-    least = report_.flow_error, report_.renderer = TransitionRenderer::kFlow;
+  if (report_.flow_error < least) least = report_.flow_error, report_.renderer = TransitionRenderer::kFlow;
   if (report_.dissolve_error <= least)
     least = report_.dissolve_error, report_.renderer = TransitionRenderer::kCrossDissolve;
   if (least > options_.max_error) report_.renderer = TransitionRenderer::kHardCut;
