@@ -29,6 +29,28 @@ bool is_inside_a_take(const PeopleTexture& texture, int first, int last) {
   });
 }
 
+/// What is mixed of a silhouette.
+struct Signals {
+  double area = 0, x = 0, y = 0, aspect = 0;
+
+  Signals() = default;
+  explicit Signals(const Silhouette& s) : area(s.area), x(s.centroid_x), y(s.centroid_y), aspect(s.aspect()) {}
+};
+
+Signals mixed(const Signals& a, const Signals& b, double weight) {
+  Signals mix;
+  mix.area = a.area + (b.area - a.area) * weight;
+  mix.x = a.x + (b.x - a.x) * weight, mix.y = a.y + (b.y - a.y) * weight;
+  mix.aspect = a.aspect + (b.aspect - a.aspect) * weight;
+  return mix;
+}
+
+const Take& take_with(const PeopleTexture& texture, int frame) {
+  for (const Take& take : texture.takes)
+    if (frame >= take.frames.start && frame < take.frames.end()) return take;
+  throw InvalidInput("frame " + std::to_string(frame) + " is in no take");
+}
+
 double percentile_95(std::vector<double> values, double least) {
   return values.empty() ? least : std::max(quantile(std::move(values), 0.95), least);
 }
@@ -66,6 +88,40 @@ CutSmoothness cut_smoothness(const PeopleTexture& texture, const SecondDifferenc
                                second_difference(a[0].aspect(), b[0].aspect(), b[1].aspect())) /
                       scales.aspect;
   smoothness.centroid = velocity_change(a[-1], a[0], b[0], b[1]) / scales.centroid;
+  return smoothness;
+}
+
+CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from,
+                                    int to, int transition_frames) {
+  CutSmoothness smoothness = cut_smoothness(texture, scales, from, to);
+  if (transition_frames <= 0) return smoothness;
+  const Take &left = take_with(texture, from), &entered = take_with(texture, to);
+  const auto before_cut = [&] { return (transition_frames + 1) / 2; };
+  while (transition_frames > 0 &&
+         (to - before_cut() < entered.frames.start || from - before_cut() + transition_frames >= left.frames.end()))
+    --transition_frames;
+  const int before = before_cut();
+  const auto of = [&](const Take& take, int frame) {
+    const int inside = std::clamp(frame, take.frames.start, take.frames.end() - 1);
+    return Signals(texture.silhouettes[static_cast<std::size_t>(inside)]);
+  };
+  const Signals last = of(left, from), first = of(entered, to - 1);
+  std::vector<Signals> film;  // two frames of footage at each end
+  for (int k = -2; k < transition_frames + 2; ++k) {
+    const double weight = std::clamp((k + 1) / (transition_frames + 1.0), 0.0, 1.0);
+    Signals b = of(entered, to - before + k);
+    b.x += last.x - first.x, b.y += last.y - first.y;
+    film.push_back(mixed(of(left, from - before + 1 + k), b, weight));
+  }
+  smoothness = {};
+  for (std::size_t t = 1; t + 1 < film.size(); ++t) {
+    const Signals &a = film[t - 1], &b = film[t], &c = film[t + 1];
+    smoothness.area = std::max(smoothness.area, second_difference(a.area, b.area, c.area) / scales.area);
+    smoothness.aspect = std::max(smoothness.aspect, second_difference(a.aspect, b.aspect, c.aspect) / scales.aspect);
+    smoothness.centroid =
+        std::max(smoothness.centroid,
+                 std::hypot(second_difference(a.x, b.x, c.x), second_difference(a.y, b.y, c.y)) / scales.centroid);
+  }
   return smoothness;
 }
 

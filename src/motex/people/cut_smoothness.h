@@ -25,6 +25,13 @@ SecondDifferenceScales second_difference_scales(const PeopleTexture& texture);
 /// neighbour lies outside its take or nobody is there.
 CutSmoothness cut_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from, int to);
 
+/// Of a transition of that many frames (Cut): the largest second difference anywhere in it and at its ends, when area,
+/// centroid and aspect go from one take to the other as the colours do, the second take moved so that the centroids
+/// meet at the cut. So it counts, too, how suddenly the footage itself moves there. Shorter where a take ends; 0
+/// frames: cut_smoothness(). Throws InvalidInput for a frame in no take.
+CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from,
+                                    int to, int transition_frames);
+
 /// Take of a frame: index in texture.takes by frame. Throws InvalidInput unless takes cover all frames without gaps.
 std::vector<int> take_of_frames(const PeopleTexture& texture);
 

@@ -114,7 +114,7 @@ class FilmPlan {
         job_(job),
         steps_(std::move(steps)),
         penalties_(steps_.size()),
-        graph_(texture, min_shot_frames(options, texture.frames_per_sec)),
+        graph_(texture, min_shot_frames(options, texture.frames_per_sec), options.transition_frames),
         max_wait_(static_cast<int>(std::lround(options.max_latency_secs * texture.frames_per_sec))) {
     for (const double beat : beats) beats_.push_back(beat * texture.frames_per_sec);
   }

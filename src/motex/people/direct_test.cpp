@@ -237,6 +237,11 @@ TEST(Director, RefusesFootageWithoutAWayBack) {
   EXPECT_THROW(Director{forward}, InvalidInput);
 }
 
+TEST(FilmGraph, AJoltCostsMoreThanADetour) {
+  EXPECT_LT(cost_of_cut({0, 9, 5, 30, 1.1}, 30) + cost_of_cut({9, 30, 5, 30, 1.1}, 30),
+            cost_of_cut({0, 30, 5, 10, 1.8}, 30));
+}
+
 TEST(FilmGraph, NothingThatEndsIsEndless) {
   const FilmGraph graph(kata(), 10);
   EXPECT_GT(graph.endless_share(), 0.7);

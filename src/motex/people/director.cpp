@@ -36,7 +36,7 @@ const PlayOptions& checked(const PlayOptions& options) {
 Director::Director(const PeopleTexture& texture, const PlayOptions& options)
     : texture_(texture),
       options_(checked(options)),
-      graph_(texture, shot_frames(texture, options)),
+      graph_(texture, shot_frames(texture, options), options.transition_frames),
       rng_(options.seed),
       last_shown_(static_cast<std::size_t>(texture.num_frames()), -1'000'000) {
   std::vector<int> beginnings;

@@ -12,6 +12,8 @@
 namespace motex {
 namespace {
 
+constexpr double kSmoothEnough = 1.2, kJolt = 40;
+
 std::vector<char> marked(const std::vector<int>& nodes, std::size_t count) {
   std::vector<char> mark(count, 0);
   if (nodes.size() < 2) return mark;
@@ -21,18 +23,23 @@ std::vector<char> marked(const std::vector<int>& nodes, std::size_t count) {
 
 }  // namespace
 
-FilmGraph::FilmGraph(const PeopleTexture& texture, int min_shot) : min_shot_(std::max(1, min_shot)) {
+FilmGraph::FilmGraph(const PeopleTexture& texture, int min_shot, int transition_frames)
+    : min_shot_(std::max(1, min_shot)) {
   const std::vector<int> take_of = take_of_frames(texture);
   const std::size_t n = take_of.size();
   for (const int take : take_of)
     last_of_take_.push_back(texture.takes[static_cast<std::size_t>(take)].frames.end() - 1);
   std::vector<std::vector<Jump>> from(n);
   const std::vector<Cut>& cuts = texture.cuts.cuts;
+  const SecondDifferenceScales scales = second_difference_scales(texture);
   for (std::size_t k = 0; k < cuts.size(); ++k) {
-    const Cut& cut = cuts[k];
+    Cut cut = cuts[k];
     if (cut.from < 0 || cut.to < 0 || cut.from >= num_frames() || cut.to >= num_frames())
       throw InvalidInput("cut " + std::to_string(k) + " joins frames that are not there");
     if (cut.to + min_shot_ - 1 > last_of_take(cut.to)) continue;
+    if (transition_frames > 0)
+      cut.smoothness = std::max(cut.smoothness,
+                                transition_smoothness(texture, scales, cut.from, cut.to, transition_frames).largest());
     from[static_cast<std::size_t>(cut.from)].push_back(
         {cut.to, static_cast<int>(k), cost_of_cut(cut, texture.cuts.natural_difference)});
   }
@@ -58,7 +65,8 @@ double FilmGraph::endless_share() const {
 
 double cost_of_cut(const Cut& cut, double natural_difference) {
   const double difference = cut.difference / std::max(natural_difference / 2, 8.0);
-  return 1 + difference * difference + cut.smoothness * cut.smoothness;
+  return 1 + difference * difference + cut.smoothness * cut.smoothness +
+         kJolt * std::max(0.0, cut.smoothness - kSmoothEnough);
 }
 
 }  // namespace motex

@@ -14,8 +14,10 @@ namespace motex {
 /// `min_shot` frames of the take are played before the next one.
 class FilmGraph {
  public:
-  /// texture.cuts must have been found. Throws InvalidInput when a cut or a take does not fit the frames.
-  FilmGraph(const PeopleTexture& texture, int min_shot);
+  /// texture.cuts must have been found. Of a cut counts how smooth its transition of that many frames will be
+  /// (transition_smoothness), where that is worse than the cut by itself. Throws InvalidInput when a cut or a take does
+  /// not fit the frames.
+  explicit FilmGraph(const PeopleTexture& texture, int min_shot, int transition_frames = 0);
 
   struct Jump {
     int to = 0;
@@ -52,7 +54,7 @@ class FilmGraph {
 
 /// 1 + (difference / d)² + smoothness², d = half the natural difference, 8 grey levels at least: 1 for being a cut at
 /// all, as much again for pictures that differ as movement does, and for a jolt as in the most sudden twentieth of the
-/// footage.
+/// footage; 40 for each unit of smoothness above 1.2, so that such a cut is made only where there is no other way.
 double cost_of_cut(const Cut& cut, double natural_difference);
 
 }  // namespace motex

@@ -128,5 +128,25 @@ TEST(CutSmoothness, RealFootageGoingOnIsSmooth) {
   EXPECT_TRUE(std::isinf(cut_smoothness(texture, scales, 40, texture.num_frames() - 1).largest()));
 }
 
+TEST(CutSmoothness, ATransitionCountsAJoltOfTheFootageInIt) {
+  PeopleTexture texture;
+  texture.takes = {{"x", 0, 0, false, {0, 60}}};
+  for (int t = 0; t < 60; ++t) {
+    Silhouette s;
+    s.box = {0, 0, 49, 99};
+    s.area = 1000 + 10 * t, s.centroid_x = t;
+    texture.silhouettes.push_back(s);
+  }
+  const SecondDifferenceScales scales{10, 1, 0.1};
+  EXPECT_NEAR(transition_smoothness(texture, scales, 20, 21, 5).largest(), 0, 1e-9);
+  EXPECT_NEAR(transition_smoothness(texture, scales, 20, 50, 0).area, cut_smoothness(texture, scales, 20, 50).area,
+              1e-9);
+  EXPECT_LT(transition_smoothness(texture, scales, 20, 50, 5).area, cut_smoothness(texture, scales, 20, 50).area);
+  texture.silhouettes[17].area += 40;
+  EXPECT_NEAR(transition_smoothness(texture, scales, 20, 21, 5).area, 80 / 10.0, 1e-6) << "footage of the first take";
+  EXPECT_NEAR(transition_smoothness(texture, scales, 30, 31, 5).area, 0, 1e-9);
+  EXPECT_LT(transition_smoothness(texture, scales, 58, 30, 5).largest(), 30) << "shorter at the end of a take";
+}
+
 }  // namespace
 }  // namespace motex
