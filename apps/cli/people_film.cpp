@@ -4,34 +4,20 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "closest.h"
-#include "colour_argument.h"
+#include "film_output.h"
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/project/edit_list_file.h"
-#include "motex/video_io/video_writer.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
-#include "video_output.h"
 
 namespace motex::cli {
 namespace {
 
 const char* const kPlate = "plate";
-
-std::optional<Backdrop> backdrop_of(const std::string& background, const PeopleModel& model, const JobContext& job) {
-  const int width = model.texture.width, height = model.texture.height;
-  std::optional<Backdrop> backdrop;
-  if (background.empty()) return backdrop;
-  if (const std::optional<Rgba> colour = colour_of(background))
-    backdrop.emplace(*colour, width, height);
-  else
-    backdrop.emplace(background, width, height, job);
-  return backdrop;
-}
 
 Value cuts_value(const EditList& edits, const std::vector<CutReport>& reports) {
   Value cuts = Value(Value::List{});
@@ -82,12 +68,7 @@ std::string motif_text(const PeopleTexture& texture, int motif) {
 }
 
 void FilmArguments::declare(Arguments& arguments) {
-  arguments
-      .value("-o,--output", "FILE",
-             "with alpha: .mov (ProRes 4444), .webm (VP9), .mkv (FFV1), a folder of PNG files or a pattern "
-             "(f_%04d.png); over a background: .mp4 and .avi too; may be given several times",
-             outputs)
-      .required = true;
+  declare_film_output(arguments, outputs);
   arguments.value("--edits", "FILE", "writes the shots and cuts too: .json or .otio (OpenTimelineIO); several times",
                   edit_outputs);
   arguments.value("--background", "FILE|COLOUR",
@@ -103,14 +84,7 @@ void FilmArguments::declare_looks(Arguments& arguments) {
 
 void FilmArguments::check(const Session& session) const {
   check_options(render);
-  std::set<std::string> seen;
-  for (const std::string& path : outputs) {
-    check_video_output(path, session);
-    if (!seen.insert(path).second) throw InvalidInput(path + ": named twice");
-    const std::string extension = extension_of(path);
-    if (background.empty() && !extension.empty() && extension != ".png" && !keeps_alpha(extension))
-      throw InvalidInput(path + ": keeps no alpha; write .mov, .webm, .mkv or PNG files, or name a --background");
-  }
+  check_film_output(outputs, background, session);
   check_outputs(edit_outputs, {".json", ".otio"}, session);
 }
 
@@ -128,7 +102,7 @@ void FilmArguments::write(const PeopleModel& model, const EditList& edits, std::
   if (background == kPlate)
     backdrop.emplace(model.plate);
   else
-    backdrop = backdrop_of(background, model, session.job());
+    backdrop = backdrop_of(background, model.texture.width, model.texture.height, session.job());
   const FilmVideoReport report = write_film_video(model, edits, render, backdrop ? &*backdrop : nullptr,
                                                   {outputs.begin(), outputs.end()}, session.job(0.2, 1));
   for (const std::string& path : edit_outputs) write_edit_list(path, model.texture, edits);

@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "closest.h"
-#include "colour_argument.h"
 #include "commands.h"
+#include "film_output.h"
 #include "motex/core/options_check.h"
 #include "motex/project/key_video.h"
-#include "motex/video_io/video_writer.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "text_table.h"
-#include "video_output.h"
 
 namespace motex::cli {
 namespace {
@@ -27,12 +24,7 @@ struct Key {
 
   void declare(Arguments& arguments) {
     arguments.positional("VIDEO", "of a fixed camera: video file, folder of pictures or pattern (f_%04d.png)", video);
-    arguments
-        .value("-o,--output", "FILE",
-               "with alpha: .mov (ProRes 4444), .webm (VP9), .mkv (FFV1), a folder of PNG files or a pattern "
-               "(f_%04d.png); over a background: .mp4 and .avi too; may be given several times",
-               outputs)
-        .required = true;
+    declare_film_output(arguments, outputs);
     arguments.value("--background", "FILE|COLOUR",
                     "puts the actor before a picture, a video (which starts again at its end), #rrggbb, black, white, "
                     "gray, green or blue",
@@ -52,13 +44,7 @@ struct Key {
     options.plate_picture = plate_picture;
     options.garbage_mask = garbage_mask;
     const VideoInfo info = VideoReader(video).info();
-    std::optional<Backdrop> backdrop;
-    if (!background.empty()) {
-      if (const std::optional<Rgba> colour = colour_of(background))
-        backdrop.emplace(*colour, info.width, info.height);
-      else
-        backdrop.emplace(background, info.width, info.height, session.job());
-    }
+    std::optional<Backdrop> backdrop = backdrop_of(background, info.width, info.height, session.job());
     if (session.flags.dry_run)
       return would_write(outputs, info.num_frames_said > 0 ? info.num_frames_said : -1, session);
     const KeyVideoReport report =
@@ -72,14 +58,7 @@ struct Key {
   void check_request(const Session& session) const {
     check_options(options.plate);
     check_options(options.key);
-    std::set<std::string> seen;
-    for (const std::string& path : outputs) {
-      check_video_output(path, session);
-      if (!seen.insert(path).second) throw InvalidInput(path + ": named twice");
-      const std::string extension = extension_of(path);
-      if (background.empty() && !extension.empty() && extension != ".png" && !keeps_alpha(extension))
-        throw InvalidInput(path + ": keeps no alpha; write .mov, .webm, .mkv or PNG files, or name a --background");
-    }
+    check_film_output(outputs, background, session);
   }
 
   static std::string hex(Rgba colour) {
