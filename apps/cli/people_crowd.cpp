@@ -4,38 +4,35 @@
 #include <optional>
 
 #include "closest.h"
-#include "colour_argument.h"
 #include "commands.h"
+#include "film_output.h"
+#include "motex/core/files.h"
 #include "motex/core/options_check.h"
-#include "motex/project/backdrop.h"
 #include "motex/project/crowd.h"
 #include "motex/project/film_video.h"
 #include "motex/project/video_outputs.h"
 #include "options_value.h"
 #include "output_file.h"
-#include "video_output.h"
 
 namespace motex::cli {
 namespace {
 
 struct MakeCrowd {
   std::vector<std::string> models, outputs;
-  std::string background;
+  std::string background, cues_path;
   double secs = 0;
   CrowdOptions options;
 
   void declare(Arguments& arguments) {
     arguments.positional("MODEL", "made by motex people learn; several take turns", models).required = true;
-    arguments
-        .value(
-            "-o,--output", "FILE",
-            "with alpha: .mov, .webm, .mkv, a folder of PNG files or a pattern (f_%04d.png); over a background: .mp4 "
-            "and .avi too; several times",
-            outputs)
-        .required = true;
+    declare_film_output(arguments, outputs);
     arguments.value("--secs", "S", "length in seconds", secs).required = true;
     arguments.value("--background", "FILE|COLOUR", "what they stand before: a picture, a video, #rrggbb, black, …",
                     background);
+    arguments.value("--cues", "FILE",
+                    "when each one comes and what is done then, one line a person from the farthest: seconds, then a "
+                    "script as of people direct, if any (\"1.5 stand 2s, high kick x2\"); afterwards free play",
+                    cues_path);
     arguments.section("Crowd");
     arguments.options(options);
   }
@@ -43,19 +40,15 @@ struct MakeCrowd {
   void run(Session& session) {
     check_options(options);
     if (!(secs > 0 && secs <= 36000)) throw InvalidInput("--secs: a film is longer than 0 and at most 36000 seconds");
-    for (const std::string& path : outputs) {
-      check_video_output(path, session);
-      const std::string extension = extension_of(path);
-      if (background.empty() && !extension.empty() && extension != ".png" && !keeps_alpha(extension))
-        throw InvalidInput(path + ": keeps no alpha; write .mov, .webm, .mkv or PNG files, or name a --background");
-    }
+    check_film_output(outputs, background, session);
+    const std::vector<Cue> cues = cues_path.empty() ? std::vector<Cue>{} : parse_cues(read_file(cues_path), cues_path);
     std::vector<PeopleModel> loaded;
     for (const std::string& path : models)
       complete_cuts(loaded.emplace_back(load_people_model(path)), session.job(0, 0));
     const double rate = loaded[0].texture.frames_per_sec;
     const int num_frames = std::max(1, static_cast<int>(std::lround(secs * rate)));
     if (session.flags.dry_run) return would_write(outputs, num_frames, session);
-    Crowd crowd(loaded, num_frames, options, {}, {}, session.job());
+    Crowd crowd(loaded, num_frames, options, {}, {}, session.job(), cues);
     write(crowd, num_frames, rate, session.job());
     session.say("wrote " + enumerate(outputs) + ": " + std::to_string(num_frames) + " frames, " +
                 std::to_string(options.people) + " people, seed " + std::to_string(options.seed));
@@ -64,11 +57,7 @@ struct MakeCrowd {
 
  private:
   void write(Crowd& crowd, int num_frames, double rate, const JobContext& job) const {
-    std::optional<Backdrop> backdrop;
-    if (const std::optional<Rgba> colour = colour_of(background); !background.empty() && colour)
-      backdrop.emplace(*colour, crowd.width(), crowd.height());
-    else if (!background.empty())
-      backdrop.emplace(background, crowd.width(), crowd.height(), job);
+    std::optional<Backdrop> backdrop = backdrop_of(background, crowd.width(), crowd.height(), job);
     VideoOutputs videos({outputs.begin(), outputs.end()}, crowd.width(), crowd.height(), {rate, !backdrop}, job);
     for (int t = 0; t < num_frames; ++t) {
       job.check_cancelled();
@@ -92,6 +81,7 @@ struct MakeCrowd {
       one["scale"] = extra.scale;
       one["x"] = extra.x;
       one["feet"] = extra.feet;
+      one["start"] = extra.start;
       one["cuts"] = static_cast<std::int64_t>(extra.edits.cuts.size());
       object["people"].append(std::move(one));
     }
@@ -109,6 +99,7 @@ Command people_crowd() {
        "Each plays on its own (as people play does) at a place of its own: who is farther away is smaller, stands "
        "higher and is hidden by who is nearer.",
        "motex people crowd kata.motex -o crowd.mp4 --secs 10 --background street.png\n"
+       "motex people crowd kata.motex -o march.mov --secs 20 --people 3 --cues entrances.txt\n"
        "motex people crowd one.motex two.motex -o extras.mov --secs 20 --people 12 --depth 0.7 --seed 4"});
 }
 

@@ -109,7 +109,8 @@ Command people_learn() {
       {"people learn", "learn an actor: cut out, what he or she repeats, where films can be cut",
        "For an actor before a green, blue or plain screen, or any scene that stands still. Every action should be "
        "performed several times, with a moment of standing in between. Hard cuts split the footage; several people "
-       "apart from one another are takes of their own. Clips must agree in size and frame rate.",
+       "apart from one another are takes of their own. Clips must agree in frame rate; pictures of another size are "
+       "scaled to fit into the first clip's.",
        "motex people learn kata.mp4 -o kata.motex\n"
        "motex people learn take1.mov take2.mov -o yoga.motex --mirror\n"
        "motex people learn stage.mp4 -o stage.motex --plate empty.png --lossless --json"});

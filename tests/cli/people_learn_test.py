@@ -85,6 +85,16 @@ class Model(CommandTest):
         self.assertEqual(scales, sorted(scales))
         self.fail_with(2, "people", "crowd", self.actor, "-o", self.folder / "c.mp4", "--secs", 1, saying="alpha")
 
+    def test_cues_say_when_each_one_comes(self):
+        cues = self.folder / "cues.txt"
+        cues.write_text(f"0.25 {self.letters[0]}\n0\n")
+        words = ("people", "crowd", self.actor, "-o", self.folder / "c.mkv", "--secs", 0.5, "--people", 2, "--cues", cues)
+        self.assertEqual([extra["start"] for extra in self.one_json_object(*words)["people"]], [5, 0])
+        cues.write_text("0\nsoon\n")
+        self.fail_with(2, *words, "--force", saying=":2")
+        cues.write_text("0\n0\n0\n")
+        self.fail_with(2, *words, "--force", saying="3 cues")
+
 
 if __name__ == "__main__":
     unittest.main()

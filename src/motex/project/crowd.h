@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "motex/core/job.h"
@@ -36,12 +38,23 @@ struct CrowdOptions {
   }
 };
 
+/// When one of a crowd comes into the picture, and what he or she does then.
+struct Cue {
+  double start_secs = 0;
+  std::string script;  ///< as parse_script() has it; played once, then free play; empty = free play throughout
+};
+
+/// Cues out of a text: one line a person, the farthest first: the time in seconds, then a script if there is one; #
+/// begins a comment. "1.5 stand 2s, high kick x2". Throws ParseError with the line.
+std::vector<Cue> parse_cues(std::string_view text, const std::string& name);
+
 /// One of a crowd. His or her feet are where the floor is at that distance: y = horizon + scale (floor − horizon).
 struct Extra {
   int model = 0;  ///< which of the models
   bool mirrored = false;
   double scale = 1;        ///< 1 = nearest
   double x = 0, feet = 0;  ///< pixels of the film: the middle of the standing body, the floor under it
+  int start = 0;           ///< frame of the film in which he or she comes
   EditList edits;
 };
 
@@ -49,9 +62,11 @@ struct Extra {
 class Crowd {
  public:
   /// models: of actors, shown in turn; they must outlive the crowd, agree in frame rate, and have cuts. The first gives
-  /// the size of the picture. Throws InvalidInput, and what play() throws.
+  /// the size of the picture. cues: of the first people; the others play freely from the beginning. Throws
+  /// InvalidInput, and what play() and direct() throw.
   Crowd(const std::vector<PeopleModel>& models, int num_frames, const CrowdOptions& options = {},
-        const PlayOptions& playing = {}, const RenderFilmOptions& render = {}, const JobContext& job = {});
+        const PlayOptions& playing = {}, const RenderFilmOptions& render = {}, const JobContext& job = {},
+        const std::vector<Cue>& cues = {});
   ~Crowd();
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
@@ -65,7 +80,7 @@ class Crowd {
 
  private:
   struct Player;
-  int width_ = 0, height_ = 0, num_left_ = 0;
+  int width_ = 0, height_ = 0, num_frames_ = 0, time_ = 0;
   JobContext job_;
   std::vector<Extra> extras_;
   std::vector<std::unique_ptr<Player>> players_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "motex/project/learn_people.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include "motex/core/options_check.h"
 #include "motex/people/footage_motifs.h"
 #include "motex/people/measure_silhouette.h"
+#include "motex/people/warp_sprites.h"
 
 namespace motex {
 namespace {
@@ -25,36 +27,52 @@ std::string rate_text(double frames_per_sec) {
   return word;
 }
 
-void check_fits(const PeopleTexture& texture, const PeopleFootage& footage, const std::filesystem::path& first,
+std::string size_text(int width, int height) { return std::to_string(width) + " × " + std::to_string(height); }
+
+void check_rate(const PeopleTexture& texture, double frames_per_sec, const std::filesystem::path& first,
                 const std::filesystem::path& video) {
-  const bool same_size = footage.width == texture.width && footage.height == texture.height;
-  const bool same_rate = std::abs(footage.frames_per_sec / texture.frames_per_sec - 1) < 0.01;
-  if (same_size && same_rate) return;
-  const auto shape = [](int width, int height, double rate) {
-    return std::to_string(width) + " × " + std::to_string(height) + " at " + rate_text(rate) + " frames a second";
-  };
-  throw InvalidInput(
-      video.string() + ": is " + shape(footage.width, footage.height, footage.frames_per_sec) + " and " +
-      first.string() + " " + shape(texture.width, texture.height, texture.frames_per_sec) +
-      "; clips of one model must agree: convert one (ffmpeg -i IN -vf scale=" + std::to_string(texture.width) + ":" +
-      std::to_string(texture.height) + " -r " + rate_text(texture.frames_per_sec) + " OUT) or learn two models");
+  if (std::abs(frames_per_sec / texture.frames_per_sec - 1) < 0.01) return;
+  throw InvalidInput(video.string() + ": has " + rate_text(frames_per_sec) + " frames a second and " + first.string() +
+                     " " + rate_text(texture.frames_per_sec) +
+                     "; clips of one model must agree: convert one (ffmpeg -i IN -r " +
+                     rate_text(texture.frames_per_sec) + " OUT) or learn two models");
+}
+
+/// A frame of that size put whole into the middle of the model's.
+Placement fitted_whole(const VideoInfo& info, const PeopleTexture& texture) {
+  const double across = static_cast<double>(texture.width) / info.width;
+  const double scale = std::min(across, static_cast<double>(texture.height) / info.height);
+  const auto offset = [&](int to, int from) { return (to - 1) / 2.0 - scale * (from - 1) / 2.0; };
+  return {scale, offset(texture.width, info.width), offset(texture.height, info.height)};
 }
 
 /// Reads one clip; its takes are stored while they are keyed and added to the model.
 LearnPeopleReport::Clip add_clip(const std::filesystem::path& video, const std::filesystem::path& first,
                                  const PeopleFootageOptions& options, bool lossless, PeopleModel& model,
                                  const JobContext& job) {
-  double rate = VideoReader(video, {}, job).info().frames_per_sec;
-  if (!(rate > 0)) rate = 25;
+  const VideoInfo info = VideoReader(video, {}, job).info();
+  const double rate = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
+  PeopleTexture& texture = model.texture;
+  Placement placement;
+  if (!texture.takes.empty()) {
+    check_rate(texture, rate, first, video);
+    placement = fitted_whole(info, texture);
+    if (placement != Placement{})
+      job.warn(video.string() + ": is " + size_text(info.width, info.height) + " and " + first.string() + " " +
+               size_text(texture.width, texture.height) + "; its pictures are scaled by " + rate_text(placement.scale));
+  }
   std::map<int, TakeFilmWriter> writers;
+  std::map<int, std::vector<Silhouette>> scaled;  // of each track; none where nothing is scaled
   const auto store = [&](int track, int, const Sprite& sprite) {
-    writers.try_emplace(track, rate, lossless, job).first->second.add(sprite);
+    TakeFilmWriter& writer = writers.try_emplace(track, rate, lossless, job).first->second;
+    if (placement == Placement{}) return writer.add(sprite);
+    const Sprite fitted = placed(sprite, placement);
+    scaled[track].push_back(measure_silhouette(fitted));
+    writer.add(fitted);
   };
   const PeopleFootage footage = read_people_footage(video, options, store, job);
-  PeopleTexture& texture = model.texture;
   if (texture.takes.empty())
     texture.width = footage.width, texture.height = footage.height, texture.frames_per_sec = footage.frames_per_sec;
-  check_fits(texture, footage, first, video);
   if (model.plate.pixels.empty()) model.plate = footage.plate;
   LearnPeopleReport::Clip clip{video, footage.shots.back().end(), static_cast<int>(footage.shots.size()),
                                static_cast<int>(footage.takes.size())};
@@ -64,7 +82,8 @@ LearnPeopleReport::Clip add_clip(const std::filesystem::path& video, const std::
     take.frames.start += start;
     model.originals.push_back(static_cast<int>(texture.takes.size()));
     texture.takes.push_back(take);
-    texture.silhouettes.insert(texture.silhouettes.end(), filmed.silhouettes.begin(), filmed.silhouettes.end());
+    const std::vector<Silhouette>& seen = scaled.empty() ? filmed.silhouettes : scaled.at(filmed.track);
+    texture.silhouettes.insert(texture.silhouettes.end(), seen.begin(), seen.end());
     model.films.push_back(writers.at(filmed.track).finish());
   }
   return clip;

@@ -52,9 +52,9 @@ struct LearnedPeople {
 
 /// The whole way from footage of an actor to a model: shots and takes, each keyed and stored as it goes by
 /// (read_people_footage, TakeFilmWriter), what repeats (find_footage_motifs), where films can be
-/// cut (find_cuts). Several videos are clips of one actor; their sizes and frame rates must agree. Memory does not grow
-/// with the pictures of the footage, save for 9 kB a frame while cuts are looked for.
-/// Throws InvalidInput naming the clip and what to do, and what its parts throw.
+/// cut (find_cuts). Several videos are clips of one actor; their frame rates must agree, pictures of another
+/// size are scaled to fit into those of the first. Memory does not grow with the pictures of the footage, save for 9 kB
+/// a frame while cuts are looked for. Throws InvalidInput naming the clip and what to do, and what its parts throw.
 LearnedPeople learn_people(const std::vector<std::filesystem::path>& videos, const PeopleFootageOptions& footage = {},
                            const FindMotifsOptions& motifs = {}, const FindCutsOptions& cuts = {},
                            const LearnPeopleOptions& options = {}, const JobContext& job = {});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "motex/core/error.h"
@@ -66,15 +67,50 @@ TEST_F(LearnPeople, ClipsMustAgree) {
   options_.frames = 60;
   options_.repetitions = 0;
   const fs::path one = film("one.mkv");
-  options_.width = 200;
+  options_.frames_per_sec = 15;
   const fs::path other = film("other.mkv");
   try {
     learn_people({one, other});
     FAIL();
   } catch (const InvalidInput& error) {
-    EXPECT_NE(std::string(error.what()).find("240"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("200"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("30"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("15"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(LearnPeople, ClipsOfAnotherSizeAreScaled) {
+  options_.frames = 60;
+  options_.repetitions = 0;
+  const fs::path one = film("one.mkv");
+  options_.width = 120, options_.height = 90;
+  const fs::path other = film("other.mkv");
+  std::vector<std::string> warnings;
+  JobContext job;
+  job.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  const PeopleTexture texture = learn_people({one, other}, {}, {}, {}, {}, job).model.texture;
+  ASSERT_EQ(texture.takes.size(), 2U);
+  EXPECT_EQ(texture.width, 240);
+  const auto tallest = [&](const Take& take) {
+    int height = 0;
+    for (int t = take.frames.start; t < take.frames.end(); ++t)
+      height = std::max(height, texture.silhouettes[static_cast<std::size_t>(t)].box.height());
+    return height;
+  };
+  EXPECT_NEAR(tallest(texture.takes[0]), tallest(texture.takes[1]), 0.06 * tallest(texture.takes[0]));
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(),
+                          [](const std::string& text) { return text.find("120 × 90") != std::string::npos; }));
+}
+
+TEST(ParseCues, OneLineAPerson) {
+  const std::vector<Cue> cues = parse_cues("# who comes\n0\n\n 1.5 stand 2s, high kick x2 # late\r\n", "c.txt");
+  ASSERT_EQ(cues.size(), 2U);
+  EXPECT_EQ(cues[0].start_secs, 0);
+  EXPECT_EQ(cues[0].script, "");
+  EXPECT_EQ(cues[1].start_secs, 1.5);
+  EXPECT_EQ(cues[1].script, "stand 2s, high kick x2");
+  EXPECT_THROW(parse_cues("1\nbow\n", "c.txt"), ParseError);
+  EXPECT_THROW(parse_cues("-1", "c.txt"), ParseError);
+  EXPECT_THROW(parse_cues("1x", "c.txt"), ParseError);
 }
 
 TEST_F(LearnPeople, FromFilmToModelToAtlasAndCrowd) {
@@ -127,6 +163,16 @@ TEST_F(LearnPeople, FromFilmToModelToAtlasAndCrowd) {
   }
   Image rest(240, 160);
   EXPECT_FALSE(a.next(rest));
+
+  crowd_options.people = 2;
+  const double half = 10 / texture.frames_per_sec;
+  Crowd cued(models, 20, crowd_options, {}, {}, {}, {{2 * half, ""}, {half, texture.alphabet.motifs[0].letter}});
+  for (int t = 0; t < 20; ++t) {
+    Image picture(240, 160, {0, 0, 0, 255});
+    ASSERT_TRUE(cued.next(picture));
+    EXPECT_EQ(picture.pixels == Image(240, 160, {0, 0, 0, 255}).pixels, t < 10) << t;
+  }
+  EXPECT_THROW(Crowd(models, 20, crowd_options, {}, {}, {}, {{}, {}, {}}), InvalidInput);
 }
 
 }  // namespace
