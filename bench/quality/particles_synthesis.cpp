@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
-// Synthesized against observed: speed and direction of steps, elements in a frame, where they are; and frames rendered
-// a second. Models are files of motex particles learn, or made of the true tracks of a scene (no image needed).
+// Synthesized against observed: speed and direction of steps, elements in a frame, births, lives, birthplaces; and
+// frames rendered a second. Models are files of motex particles learn, or made of the true tracks of a scene (no image
+// needed).
 //   particles_synthesis [MODEL | TRACKS.csv | simulate]...
 // Distances: TV = total variation ½ Σ |p − q| of histograms (24 bins; speed to 1.25 times its 99 % quantile, direction
 // in steps of 15°), W1 = Wasserstein-1 of speed over the mean speed, and of direction around the circle over 180°.
@@ -29,36 +30,63 @@ namespace motex {
 namespace {
 
 constexpr int kBins = 24;
+constexpr std::size_t kRuns = 10;
+constexpr int kWindows = 10;  // clips that a run is long, when all are taken together
+constexpr std::uint64_t kOtherClips = 5;
 constexpr double kTurn = 2 * std::numbers::pi;
 
 double processor_secs() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-struct Steps {
-  std::vector<double> speed, direction, count;
-  double mean_count() const {
-    double sum = 0;
-    for (const double c : count) sum += c;
-    return sum / static_cast<double>(count.size());
+/// What is seen of elements between two frames; cables that are there at both ends are cut.
+struct Sights {
+  std::vector<double> speed, direction;  // of steps
+  std::vector<double> count;             // elements, by frame
+  std::vector<double> lives;             // frames
+  std::vector<double> birth_x, birth_y;  // of those not there in the first frame, shares of the picture
+};
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+}
+
+struct PictureSize {
+  int width = 0, height = 0;
+  bool has(const Base& base) const {
+    return base.x >= -0.5 && base.y >= -0.5 && base.x < width - 0.5 && base.y < height - 0.5;
   }
 };
 
-Steps steps_of(const std::vector<Cable>& cables, int width, int height, std::int64_t num_frames) {
-  Steps steps;
-  steps.count.assign(static_cast<std::size_t>(num_frames), 0);
-  const auto inside = [&](const Base& base) {
-    return base.x >= -0.5 && base.y >= -0.5 && base.x < width - 0.5 && base.y < height - 0.5;
-  };
-  for (const Cable& cable : cables)
-    for (std::size_t k = 0; k < cable.core.size(); ++k) {
-      if (!inside(cable.core[k])) continue;
-      const std::int64_t frame = cable.first_frame + static_cast<std::int64_t>(k);
-      if (frame >= 0 && frame < num_frames) steps.count[static_cast<std::size_t>(frame)] += 1;
-      if (k == 0 || !inside(cable.core[k - 1])) continue;
-      const double vx = cable.core[k].x - cable.core[k - 1].x, vy = cable.core[k].y - cable.core[k - 1].y;
-      steps.speed.push_back(std::hypot(vx, vy));
-      steps.direction.push_back(std::atan2(vy, vx));
+/// Adds what is seen in frames first … first + num_frames − 1.
+void add_sights(const std::vector<Cable>& cables, const PictureSize& size, std::int64_t first, std::int64_t num_frames,
+                Sights& sights) {
+  std::vector<double> count(static_cast<std::size_t>(num_frames), 0);
+  for (const Cable& cable : cables) {
+    const Base* last = nullptr;
+    double life = 0;
+    for (std::int64_t frame = std::max(first, cable.first_frame);
+         frame < std::min(first + num_frames, cable.end_frame()); ++frame) {
+      const Base& base = cable.at(frame);
+      if (!size.has(base)) {
+        last = nullptr;
+        continue;
+      }
+      count[static_cast<std::size_t>(frame - first)] += 1;
+      if (life == 0 && frame > first) {
+        sights.birth_x.push_back((base.x + 0.5) / size.width);
+        sights.birth_y.push_back((base.y + 0.5) / size.height);
+      }
+      life += 1;
+      if (last != nullptr) {
+        sights.speed.push_back(std::hypot(base.x - last->x, base.y - last->y));
+        sights.direction.push_back(std::atan2(base.y - last->y, base.x - last->x));
+      }
+      last = &base;
     }
-  return steps;
+    if (life > 0) sights.lives.push_back(life);
+  }
+  sights.count.insert(sights.count.end(), count.begin(), count.end());
 }
 
 std::array<double, kBins> histogram(const std::vector<double>& values, double low, double high) {
@@ -100,25 +128,69 @@ double wasserstein(std::vector<double> a, std::vector<double> b, double low, dou
   return sum * (high - low) / kPoints;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+/// How far two sights are apart. Differences are signed shares of the first one's.
+struct Apart {
+  double tv_speed = 0, tv_direction = 0;
+  double w1_speed = 0, w1_direction = 0;  // over the mean speed; over 180°
+  double w1_count = 0, w1_life = 0;       // over their means
+  double w1_birthplace = 0;               // mean of across and down, over the picture's size
+  double count = 0, births = 0;
+
+  static Apart of(const Sights& a, const Sights& b);
+  template <typename Visitor>
+  void visit(Visitor&& visitor) {
+    for (double* value :
+         {&tv_speed, &tv_direction, &w1_speed, &w1_direction, &w1_count, &w1_life, &w1_birthplace, &count, &births})
+      visitor(*value);
+  }
+};
+
+double linear_wasserstein(const std::vector<double>& a, const std::vector<double>& b) {
+  double high = 1e-9;
+  for (const auto* values : {&a, &b})
+    for (const double v : *values) high = std::max(high, v);
+  return wasserstein(a, b, 0, high, false);
 }
 
-void compare(const char* name, const Steps& observed, const Steps& made) {
-  std::vector<double> sorted = observed.speed;
+Apart Apart::of(const Sights& a, const Sights& b) {
+  std::vector<double> sorted = a.speed;
   std::sort(sorted.begin(), sorted.end());
   const double top = sorted.empty() ? 1 : 1.25 * std::max(0.1, sorted[sorted.size() * 99 / 100]);
-  const double largest =
-      std::max(top, made.speed.empty() ? 0 : *std::max_element(made.speed.begin(), made.speed.end()));
-  std::printf(
-      "  %-22s TV speed %.3f direction %.3f   W1 speed %.3f direction %.3f   count %6.1f against %6.1f (%+.1f %%)\n",
-      name, total_variation(observed.speed, made.speed, 0, top),
-      total_variation(observed.direction, made.direction, -kTurn / 2, kTurn / 2),
-      wasserstein(observed.speed, made.speed, 0, largest, false) / std::max(1e-9, mean_of(observed.speed)),
-      wasserstein(observed.direction, made.direction, -kTurn / 2, kTurn / 2, true) / (kTurn / 2), made.mean_count(),
-      observed.mean_count(), 100 * (made.mean_count() / observed.mean_count() - 1));
+  const auto births_per_frame = [](const Sights& sights) {
+    return static_cast<double>(sights.birth_x.size()) / static_cast<double>(sights.count.size());
+  };
+  Apart apart;
+  apart.tv_speed = total_variation(a.speed, b.speed, 0, top);
+  apart.tv_direction = total_variation(a.direction, b.direction, -kTurn / 2, kTurn / 2);
+  apart.w1_speed = linear_wasserstein(a.speed, b.speed) / std::max(1e-9, mean_of(a.speed));
+  apart.w1_direction = wasserstein(a.direction, b.direction, -kTurn / 2, kTurn / 2, true) / (kTurn / 2);
+  apart.w1_count = linear_wasserstein(a.count, b.count) / mean_of(a.count);
+  apart.w1_life = linear_wasserstein(a.lives, b.lives) / mean_of(a.lives);
+  apart.w1_birthplace = (linear_wasserstein(a.birth_x, b.birth_x) + linear_wasserstein(a.birth_y, b.birth_y)) / 2;
+  apart.count = mean_of(b.count) / mean_of(a.count) - 1;
+  apart.births = births_per_frame(a) > 0 ? births_per_frame(b) / births_per_frame(a) - 1 : 0;
+  return apart;
+}
+
+/// Mean of each number over some runs (of differences: of their sizes), and the largest.
+void print_runs(const char* name, std::vector<Apart> runs) {
+  std::vector<double> sums(9), largest(9);
+  for (Apart& run : runs) {
+    std::size_t k = 0;
+    run.visit([&](double value) {
+      sums[k] += std::abs(value) / static_cast<double>(runs.size());
+      largest[k] = std::abs(value) > std::abs(largest[k]) ? value : largest[k];
+      ++k;
+    });
+  }
+  std::printf("  %-20s", name);
+  for (std::size_t k = 0; k < 7; ++k)
+    runs.size() > 1 ? std::printf("  .%03.0f (.%03.0f)", 1000 * sums[k], 1000 * largest[k])
+                    : std::printf("  .%03.0f       ", 1000 * sums[k]);
+  for (std::size_t k = 7; k < 9; ++k)
+    runs.size() > 1 ? std::printf("  %5.1f %% (%+.1f)", 100 * sums[k], 100 * largest[k])
+                    : std::printf("  %+5.1f %%        ", 100 * largest[k]);
+  std::puts("");
 }
 
 /// What learning would give if tracking were perfect.
@@ -158,26 +230,50 @@ std::vector<Track> tracks_of_scene(const SimulatedScene& scene) {
   return tracks;
 }
 
+/// Runs as long as the clip against it; many of them together, which tells what is wrong from what is chance; and each
+/// against all, which is chance alone.
 void measure(const std::string& name, const TexturedMotion& model) {
-  const Steps observed = steps_of(model.cables, model.width, model.height, model.num_frames);
-  std::printf("%s: %zu cables, %lld frames, %zu bursts\n", name.c_str(), model.cables.size(),
-              static_cast<long long>(model.num_frames), model.maps.bursts.size());
-  for (const std::int64_t num_frames : {model.num_frames, 10 * model.num_frames})
-    for (const std::uint64_t seed : {1U, 2U, 3U}) {
-      if (num_frames > model.num_frames && seed > 1) continue;
-      SynthesizeParticlesOptions options;
-      options.seed = seed;
-      SynthesizeParticlesReport report;
-      const double start = processor_secs();
-      const std::vector<Cable> cables = synthesize_cables(model, options, num_frames, {}, &report);
-      const double secs = processor_secs() - start;
-      const std::string label = std::to_string(num_frames) + " frames, seed " + std::to_string(seed);
-      compare(label.c_str(), observed, steps_of(cables, model.width, model.height, num_frames));
-      if (num_frames > model.num_frames)
-        std::printf("  births a frame %.2f, bursts %.4f, deaths by %s, warm-up %lld frames, %.2f s\n",
-                    report.births_per_frame, report.bursts_per_frame, report.deaths_by_age ? "age" : "place",
-                    static_cast<long long>(report.warm_up_frames), secs);
-    }
+  const PictureSize size{model.width, model.height};
+  Sights observed, all;
+  add_sights(model.cables, size, 0, model.num_frames, observed);
+  std::printf("%s: %zu cables, %lld frames, %zu bursts, %.1f in a frame\n", name.c_str(), model.cables.size(),
+              static_cast<long long>(model.num_frames), model.maps.bursts.size(), mean_of(observed.count));
+  std::printf("  %-20s  %-11s  %-11s  %-11s  %-11s  %-11s  %-11s  %-11s  %-14s  %s\n", "mean (largest)", "TV speed",
+              "direction", "W1 speed", "direction", "count", "life", "birthplace", "count", "births");
+  std::vector<Sights> runs(kRuns);
+  const double start = processor_secs();
+  SynthesizeParticlesReport report;
+  for (std::size_t run = 0; run < kRuns; ++run) {
+    SynthesizeParticlesOptions options;
+    options.seed = run + 1;
+    const std::vector<Cable> cables = synthesize_cables(model, options, kWindows * model.num_frames, {}, &report);
+    add_sights(cables, size, 0, model.num_frames, runs[run]);
+    for (int window = 0; window < kWindows; ++window)
+      add_sights(cables, size, window * model.num_frames, model.num_frames, all);
+  }
+  std::vector<Apart> from_observed, from_all;
+  for (const Sights& run : runs) {
+    from_observed.push_back(Apart::of(observed, run));
+    from_all.push_back(Apart::of(all, run));
+  }
+  print_runs("runs from the clip", from_observed);
+  print_runs("all from the clip", {Apart::of(observed, all)});
+  print_runs("runs from all", from_all);
+  std::printf("  births a frame %.2f, bursts %.4f, deaths by %s, warm-up %lld frames, %.2f s\n",
+              report.births_per_frame, report.bursts_per_frame, report.deaths_by_age ? "age" : "place",
+              static_cast<long long>(report.warm_up_frames), processor_secs() - start);
+}
+
+/// Other clips of the same simulation from the first: chance of nature, beside which that of a synthesis is seen.
+void measure_nature(const std::vector<SimulatedScene>& scenes) {
+  std::vector<Sights> clips;
+  for (const SimulatedScene& scene : scenes) {
+    const TexturedMotion model = model_of_tracks(tracks_of_scene(scene), scene.width, scene.height);
+    add_sights(model.cables, {scene.width, scene.height}, 0, model.num_frames, clips.emplace_back());
+  }
+  std::vector<Apart> others;
+  for (std::size_t k = 1; k < clips.size(); ++k) others.push_back(Apart::of(clips[0], clips[k]));
+  print_runs("nature from the clip", others);
 }
 
 void measure_rendering() {
@@ -213,28 +309,36 @@ void measure_rendering() {
     }
 }
 
-void measure_simulated() {
+/// simulate: the scene of a seed.
+void measure_simulated(const std::string& name, const auto& simulate) {
   for (const std::uint64_t seed : {1U, 2U}) {
-    for (const double elements : {60.0, 150.0, 300.0}) {
-      SimulateSnowOptions snow;
-      snow.seed = seed;
-      snow.elements = elements;
-      const SimulatedScene scene = simulate_snow(snow);
-      measure(
-          "simulated snow, " + std::to_string(static_cast<int>(elements)) + " elements, seed " + std::to_string(seed),
-          model_of_tracks(tracks_of_scene(scene), scene.width, scene.height));
-    }
+    std::vector<SimulatedScene> scenes;
+    for (std::uint64_t other = 0; other <= kOtherClips; ++other) scenes.push_back(simulate(seed + 100 * other));
+    measure(name + ", seed " + std::to_string(seed),
+            model_of_tracks(tracks_of_scene(scenes[0]), scenes[0].width, scenes[0].height));
+    measure_nature(scenes);
   }
-  for (const std::uint64_t seed : {1U, 2U}) {
+}
+
+void measure_simulations() {
+  for (const double elements : {60.0, 150.0, 300.0})
+    measure_simulated("simulated snow, " + std::to_string(static_cast<int>(elements)) + " elements",
+                      [elements](std::uint64_t seed) {
+                        SimulateSnowOptions snow;
+                        snow.seed = seed;
+                        snow.elements = elements;
+                        return simulate_snow(snow);
+                      });
+  measure_simulated("simulated birds", [](std::uint64_t seed) {
     SimulateBirdsOptions birds;
     birds.seed = seed;
-    const SimulatedScene flight = simulate_birds(birds);
-    measure("simulated birds, seed " + std::to_string(seed), model_of_tracks(tracks_of_scene(flight), 320, 240));
+    return simulate_birds(birds);
+  });
+  measure_simulated("simulated fireworks", [](std::uint64_t seed) {
     SimulateFireworksOptions fireworks;
     fireworks.seed = seed;
-    const SimulatedScene sparks = simulate_fireworks(fireworks);
-    measure("simulated fireworks, seed " + std::to_string(seed), model_of_tracks(tracks_of_scene(sparks), 320, 240));
-  }
+    return simulate_fireworks(fireworks);
+  });
 }
 
 }  // namespace
@@ -247,7 +351,7 @@ int main(int argc, char** argv) {
   try {
     for (const std::string& name : names) {
       if (name == "simulate")
-        measure_simulated();
+        measure_simulations();
       else if (name == "render")
         measure_rendering();
       else if (name.ends_with(".csv"))

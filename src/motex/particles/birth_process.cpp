@@ -76,6 +76,8 @@ BirthProcess::BirthProcess(const TexturedMotion& model, const std::vector<CableF
       source_(cumulated(model, settings.source)),
       bandwidth_(model.maps.bandwidth > 0 ? model.maps.bandwidth
                                           : kUsualBandwidth * std::max(model.width, model.height)),
+      period_(settings.period),
+      burst_rates_(burst_rates),
       singles_(0, 0, rng),
       bursts_(0, 0, rng),
       deck_({}, rng),
@@ -88,10 +90,14 @@ BirthProcess::BirthProcess(const TexturedMotion& model, const std::vector<CableF
   });
   births_per_frame_ = total_of(items_) * settings.rate * settings.singles * settings.speed;
   bursts_per_frame_ = std::accumulate(burst_rates.begin(), burst_rates.end(), 0.0) * settings.rate;
-  singles_ = Arrivals(births_per_frame_, settings.period, rng.fork(0));
-  bursts_ = Arrivals(bursts_per_frame_, settings.period, rng.fork(1));
+  begin_anew(rng);
+}
+
+void BirthProcess::begin_anew(const Rng& rng) {
+  singles_ = Arrivals(births_per_frame_, period_, rng.fork(0));
+  bursts_ = Arrivals(bursts_per_frame_, period_, rng.fork(1));
   deck_ = WeightedDeck(rates_of(items_), rng.fork(2));
-  burst_deck_ = WeightedDeck(burst_rates, rng.fork(3));
+  burst_deck_ = WeightedDeck(burst_rates_, rng.fork(3));
 }
 
 void BirthProcess::add_wind(const BirthSettings& settings) {
@@ -148,6 +154,7 @@ ElementBirth BirthProcess::birth_like(const Item& item, Rng& rng) const {
   birth.enters = example.enters;
   birth.side = example.side;
   birth.life = example.life;
+  birth.first_step = example.first_step;
   birth.starts_like = example.starts_like;
   if (!source_.empty()) {
     draw_place(birth.x, birth.y, rng);

@@ -28,7 +28,8 @@ struct ElementBirth {
   int side = 0;              ///< where: 0 left, 1 top, 2 right, 3 bottom
   bool starts_like = false;  ///< with the first velocity of the cable, otherwise with its drift
   bool is_burst = false;
-  std::int64_t life = -1;  ///< frames, −1 = by the death law
+  std::int64_t life = -1;       ///< frames, −1 = by the death law
+  std::int64_t first_step = 0;  ///< of the cable's path
   std::int64_t frame = 0;
   Rng rng{0};  ///< its own
 };
@@ -45,6 +46,8 @@ class BirthProcess {
 
   /// Appends the births of events of that frame; those of bursts may lie some frames later.
   void at(std::int64_t frame, std::vector<ElementBirth>& births);
+  /// Other births from now on, as many and of the same kinds.
+  void begin_anew(const Rng& rng);
   double births_per_frame() const { return births_per_frame_; }
   double bursts_per_frame() const { return bursts_per_frame_; }
 
@@ -63,6 +66,8 @@ class BirthProcess {
   std::vector<Item> items_;
   std::vector<double> source_;  // cumulative, a pixel
   double bandwidth_;
+  std::int64_t period_;
+  std::vector<double> burst_rates_;
   double births_per_frame_ = 0, bursts_per_frame_ = 0;
   Arrivals singles_, bursts_;
   WeightedDeck deck_, burst_deck_;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "motex/image/pyramid.h"
+#include "motex/particles/path_replay.h"
 
 namespace motex {
 namespace {
@@ -17,6 +18,8 @@ constexpr double kBorder = 1.5;           // pixels and core scales that a track
 constexpr double kLongestResidence = 10;  // clip lengths
 constexpr double kPriorPresences = 20;    // of the mean hazard, in each cell and at each age
 constexpr std::size_t kNumAges = 200;
+constexpr std::size_t kFewCables = 100;
+constexpr double kLeavingLives = 4;  // lives after which one that should have left is gone at last
 constexpr std::array<double, 12> kFrailties{1e4, 100, 30, 10, 5, 3, 2, 1, 0.5, 0.3, 0.2, 0.1};  // κ
 
 /// Frames until a straight path leaves the picture, and where.
@@ -141,6 +144,92 @@ double expected_rest(const DeathLaw& deaths, const Base& at, std::int64_t age, d
     sum += alive;
   }
   return sum;
+}
+
+double longest_residence(const TexturedMotion& model) {
+  return kLongestResidence * static_cast<double>(model.num_frames);
+}
+
+/// Frames until something of that probability a frame happens, at most so many.
+double ends_within(double frames, double probability, Rng& rng) {
+  if (probability <= 0) return frames;
+  return std::min(frames, std::floor(std::log(1 - rng.uniform()) / std::log1p(-std::min(probability, 0.999))));
+}
+
+/// Probabilities a frame that an element was born inside just before, and that it dies inside just after.
+struct CutHazards {
+  double birth = 0, death = 0;
+};
+
+/// What the clip cut off of a cable, at its mean velocity.
+void extend_straight(const TexturedMotion& model, const Cable& cable, const CableFate& fate, const CutHazards& hazards,
+                     Rng& rng, BirthExample& example) {
+  const Base &first = cable.core.front(), &last = cable.core.back();
+  const double longest = longest_residence(model);
+  if (!fate.birth_seen && !fate.enters) {
+    const Exit entry = exit_of(model, first.x, first.y, -fate.vx, -fate.vy);
+    const double before = ends_within(std::min(entry.frames, longest), hazards.birth, rng);
+    example.enters = before >= entry.frames;
+    example.side = entry.side;
+    example.x -= before * fate.vx;
+    example.y -= before * fate.vy;
+    example.residence += before;
+  }
+  if (!fate.death_seen && !fate.leaves) {
+    const Exit exit = exit_of(model, last.x, last.y, fate.vx, fate.vy);
+    example.residence += ends_within(std::min(exit.frames, longest), hazards.death, rng);
+  }
+}
+
+/// Where a path goes beyond one end of its cable.
+struct PathEnd {
+  double x = 0, y = 0;  ///< its last place in the picture
+  double frames = 0;    ///< to there
+  bool leaves = false;
+  int side = 0;  ///< where it leaves
+};
+
+PathEnd beyond(const TexturedMotion& model, const Cable& cable, bool forwards, double most_frames) {
+  const PathReplay path(cable);
+  const Base& from = forwards ? cable.core.back() : cable.core.front();
+  PathEnd end{from.x, from.y, 0, false, 0};
+  std::int64_t step = forwards ? static_cast<std::int64_t>(cable.core.size()) - 1 : -1;
+  for (; end.frames < most_frames; end.frames += 1, step += forwards ? 1 : -1) {
+    const PathReplay::Step by = path.step_at(step);
+    const double x = end.x + (forwards ? by.dx : -by.dx), y = end.y + (forwards ? by.dy : -by.dy);
+    const std::array<bool, 4> outside{x<-0.5, y<-0.5, x> model.width - 0.5, y> model.height - 0.5};
+    const auto crossed = std::find(outside.begin(), outside.end(), true);
+    if (crossed != outside.end()) {
+      end.leaves = true;
+      end.side = static_cast<int>(crossed - outside.begin());
+      return end;
+    }
+    end.x = x;
+    end.y = y;
+  }
+  return end;
+}
+
+/// What the clip cut off of a cable, along its own path; and how long it lives where that is not left to the death law.
+void extend_path(const TexturedMotion& model, const Cable& cable, const CableFate& fate, const CutHazards& hazards,
+                 bool has_own_life, Rng& rng, BirthExample& example) {
+  const double longest = longest_residence(model);
+  bool leaves = fate.leaves;
+  if (!fate.birth_seen && !fate.enters) {
+    const PathEnd entry = beyond(model, cable, false, ends_within(longest, hazards.birth, rng));
+    example.enters = entry.leaves;
+    example.side = entry.side;
+    example.x = entry.x;
+    example.y = entry.y;
+    example.residence += entry.frames;
+    example.first_step = -static_cast<std::int64_t>(entry.frames);
+  }
+  if (!fate.death_seen && !fate.leaves) {
+    const PathEnd exit = beyond(model, cable, true, ends_within(longest, hazards.death, rng));
+    leaves = exit.leaves;
+    example.residence += exit.frames;
+  }
+  if (has_own_life) example.life = static_cast<std::int64_t>((leaves ? kLeavingLives : 1) * example.residence);
 }
 
 }  // namespace
@@ -268,6 +357,8 @@ DeathLaw death_law_of_hazard(const Plane& hazard) {
   return law;
 }
 
+bool are_few(const std::vector<CableFate>& fates) { return fates.size() < kFewCables; }
+
 std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std::vector<CableFate>& fates,
                                          const DeathLaw& deaths, double kappa, Rng& rng) {
   double num_inside = 0, num_presences = 0;
@@ -276,46 +367,34 @@ std::vector<BirthExample> birth_examples(const TexturedMotion& model, const std:
     num_presences += static_cast<double>(model.cables[k].core.size());
   }
   const double born_inside = num_presences > 0 ? num_inside / num_presences : 0;
-  const auto clip = static_cast<double>(model.num_frames), longest = kLongestResidence * clip;
-  const auto ends_within = [&rng](double frames, double probability) {  // geometric
-    if (probability <= 0) return frames;
-    return std::min(frames, std::floor(std::log(1 - rng.uniform()) / std::log1p(-std::min(probability, 0.999))));
-  };
   std::vector<BirthExample> examples;
   for (std::size_t k = 0; k < fates.size(); ++k) {
     const CableFate& fate = fates[k];
     const Cable& cable = model.cables[k];
     if (cable.core.empty() || fate.in_burst) continue;
-    const Base &first = cable.core.front(), &last = cable.core.back();
+    const Base& first = cable.core.front();
+    const auto num_seen = static_cast<double>(cable.core.size());
+    BirthExample example;
+    example.cable = static_cast<int>(k);
+    example.x = first.x;
+    example.y = first.y;
+    example.vx = fate.start_vx;
+    example.vy = fate.start_vy;
+    example.enters = fate.enters;
+    example.side = fate.side;
+    example.residence = num_seen;
+    example.starts_like = cable.core.size() > 1;
     // as easily as it dies, it may have been born a moment ago
     const double seen_inside = fate.birth_seen && !fate.enters ? 1 : 0;
-    const double born_like =
-        born_inside * (seen_inside + kappa) / (born_inside * static_cast<double>(cable.core.size()) + kappa);
-    BirthExample example{static_cast<int>(k),
-                         first.x,
-                         first.y,
-                         fate.start_vx,
-                         fate.start_vy,
-                         fate.enters,
-                         fate.side,
-                         static_cast<double>(cable.core.size()),
-                         -1,
-                         cable.core.size() > 1,
-                         0};
-    if (!fate.birth_seen && !fate.enters) {
-      const Exit entry = exit_of(model, first.x, first.y, -fate.vx, -fate.vy);
-      const double before = ends_within(std::min(entry.frames, longest), born_like);
-      example.enters = before >= entry.frames;
-      example.side = entry.side;
-      example.x -= before * fate.vx;
-      example.y -= before * fate.vy;
-      example.residence += before;
-    }
-    if (!fate.death_seen && !fate.leaves)
-      example.residence += ends_within(std::min(exit_of(model, last.x, last.y, fate.vx, fate.vy).frames, longest),
-                                       deaths.mean * fate.frailty);
-    if (example.residence >= longest) example.life = static_cast<std::int64_t>(example.residence);
-    example.rate = static_cast<double>(cable.core.size()) / (clip * example.residence);
+    const double born_like = born_inside * (seen_inside + kappa) / (born_inside * num_seen + kappa);
+    const double dies_like = deaths.mean * fate.frailty;
+    if (fate.repeats_path)
+      extend_path(model, cable, fate, {born_like, dies_like}, are_few(fates), rng, example);
+    else
+      extend_straight(model, cable, fate, {born_like, dies_like}, rng, example);
+    if (example.residence >= longest_residence(model) && example.life < 0)
+      example.life = static_cast<std::int64_t>(example.residence);
+    example.rate = num_seen / (static_cast<double>(model.num_frames) * example.residence);
     examples.push_back(example);
   }
   return examples;

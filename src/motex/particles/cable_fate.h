@@ -24,7 +24,12 @@ struct CableFate {
   /// d = 1 if it did, H = the hazards it went through, of a gamma distribution of mean 1 and variance 1/κ; κ is the
   /// likeliest. Birds live long beside specks that are lost again; one hazard for both would thin out the birds.
   double frailty = 1;
+  bool repeats_path = false;  ///< elements like it go its way step by step (path_replay.h)
 };
+
+/// Whether a model has so few cables that each counts: laws of motion and of death fitted to them all, and births drawn
+/// at random, would then miss what is seen of the clip by far more than a second clip of its kind may differ.
+bool are_few(const std::vector<CableFate>& fates);
 
 std::vector<CableFate> fates_of(const TexturedMotion& model);
 
@@ -51,17 +56,19 @@ DeathLaw death_law_of_map(const TexturedMotion& model, const Plane& map);
 DeathLaw death_law_of_hazard(const Plane& hazard);
 
 /// A cable of the clip as an example of how elements come, what was not seen of it made up: where the clip cut it, it
-/// goes on at its velocity to the border, or ends inside as often as others do.
+/// goes on at its velocity (or its path) to the border, or ends inside as often as others do.
 struct BirthExample {
   int cable = 0;
   double x = 0, y = 0;    ///< of its birth; of one that enters, in the picture near the border
   double vx = 0, vy = 0;  ///< there
   bool enters = false;
   int side = 0;
-  double residence = 1;      ///< L, frames
-  std::int64_t life = -1;    ///< L where it was cut off (an element that hardly moves); −1 = the death law decides
-  bool starts_like = false;  ///< it begins with the first velocity of the cable
-  double rate = 0;           ///< births a frame like it: ℓ/(T L) if ℓ of the clip's T frames show it (Little's law)
+  double residence = 1;  ///< L, frames
+  /// L where it was cut off (an element that hardly moves), and where cables are few; −1 = the death law decides.
+  std::int64_t life = -1;
+  std::int64_t first_step = 0;  ///< of its path, negative before the clip
+  bool starts_like = false;     ///< it begins with the first velocity of the cable
+  double rate = 0;  ///< births a frame like it: ℓ/(T L) if ℓ of the clip's T frames show it (Little's law)
 };
 
 /// Those of bursts left out. Σ rate · L is the mean number of elements in a frame of the clip, and each kind of path

@@ -115,22 +115,6 @@ double noise_like(const NoiseSpread& spread, const CoordinateDynamics& law, std:
   return std::sqrt((spread.freedom * spread.typical * spread.typical + own.squares) / (spread.freedom + own.num));
 }
 
-double constant_and_residuals(const CoordinateDynamics& law, std::span<const double> values,
-                              std::vector<double>& residuals) {
-  const double constant = constant_of(law, values, true).mean;
-  residuals.clear();
-  for (std::size_t t = 2; t < values.size(); ++t)
-    residuals.push_back(values[t] - law.a * values[t - 1] - law.b * values[t - 2] - constant);
-  return constant;
-}
-
-double CoordinateWalk::draw(Rng& rng) {
-  if (residuals.empty()) return noise * rng.normal();
-  const std::size_t last = residuals.size() - 1, place = last == 0 ? 0 : num_steps % (2 * last);
-  ++num_steps;
-  return residuals[place <= last ? place : 2 * last - place];
-}
-
 ElementLooks ElementLooks::replay(const Cable& cable, int width, int height) {
   ElementLooks looks;
   looks.cable_ = &cable;

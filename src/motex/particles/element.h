@@ -12,6 +12,7 @@
 #include "motex/particles/cable_fate.h"
 #include "motex/particles/moveton_dynamics.h"
 #include "motex/particles/moveton_frame.h"
+#include "motex/particles/path_replay.h"
 #include "motex/particles/sample_moveton.h"
 
 namespace motex {
@@ -19,19 +20,21 @@ namespace motex {
 /// One coordinate of one element on its way: z_t = a z_{t−1} + b z_{t−2} + c_i + d_i n_t.
 struct CoordinateWalk {
   double now = 0, before = 0;
-  double constant = 0;            ///< c_i
-  double noise = 0;               ///< d_i
-  std::vector<double> residuals;  ///< d_i n_t one after another, forwards and backwards in turn; empty: n ~ N(0, 1)
-  std::size_t num_steps = 0;
+  double constant = 0;  ///< c_i
+  double noise = 0;     ///< d_i
+  double drift = 0;     ///< velocity beside that of a path which it follows
 
   void step(const CoordinateDynamics& law, Rng& rng) {
-    const double next = law.a * now + law.b * before + constant + draw(rng);
+    const double next = law.a * now + law.b * before + constant + noise * rng.normal();
     before = now;
     now = next;
   }
-
- private:
-  double draw(Rng& rng);
+  /// As far as a path goes that was seen, and what wind and gravity (the constant) add, damped as the law damps.
+  void follow(const CoordinateDynamics& law, double step) {
+    drift = law.persistence() * drift + constant;
+    before = now;
+    now += step + drift;
+  }
 };
 
 /// c_i of a cable that was observed, from its posterior: before any step N(c + c_slope (start − start_mean), rest²)
@@ -46,16 +49,13 @@ struct NoiseSpread {
   double freedom = 1e4;
   double correlation = 0;  ///< of a residual with the next; 0 = white
   /// A bird that circles turns on for many frames: no white noise of the second-order law does that. Then elements take
-  /// the residuals of the cable that they are like, in their order.
+  /// the steps of the cable that they are like, in their order.
   bool is_white() const { return correlation < 0.5; }
 };
 /// From paths of one coordinate: the likeliest of a grid.
 NoiseSpread learn_noise_spread(const CoordinateDynamics& law, const std::vector<std::vector<double>>& places);
 /// d_i of a cable that was observed: root of the posterior mean (ν typical² + Σ residuals²)/(ν + n).
 double noise_like(const NoiseSpread& spread, const CoordinateDynamics& law, std::span<const double> values);
-/// c_i of a cable in the mean, and its residuals about that.
-double constant_and_residuals(const CoordinateDynamics& law, std::span<const double> values,
-                              std::vector<double>& residuals);
 
 /// Edits that change how everything moves.
 struct MotionEdit {
@@ -104,6 +104,7 @@ struct Element {
   int species = -1;
   const MovetonDynamics* law = nullptr;
   CoordinateWalk x, y, log_scale, angle, amplitude;
+  std::optional<PathReplay> path;  ///< that x and y follow instead of the law
   double low_log_scale = 0, high_log_scale = 0, low_amplitude = 0, high_amplitude = 0;  ///< what the example had
   std::int64_t age = 0;                                                                 ///< frames since birth
   std::int64_t outside = 0;  ///< frames before it came into the picture

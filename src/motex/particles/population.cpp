@@ -11,7 +11,9 @@ namespace motex {
 namespace {
 
 constexpr std::int64_t kFirstWarmUp = 128, kLongestWarmUp = 4096;
-constexpr std::int64_t kCalibrationFrames = 300;
+constexpr std::int64_t kCalibrationFrames = 300;  // or more,
+constexpr double kCalibrationElements = 18'000;   // until so many were counted
+constexpr std::int64_t kMostCalibrationFrames = 6000;
 constexpr std::int64_t kLongestOutside = 150;  // frames that an element may stray outside
 constexpr double kFarOutside = 100;            // pixels
 constexpr std::size_t kFewSteps = 30;          // of a species that are too few for dynamics of its own
@@ -46,6 +48,8 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
       fates_(fates_of(model)),
       deaths_(learn_death_law(model, fates_)),
       laws_(laws_of(model)) {
+  learn_noise();
+  choose_paths();
   Rng rng = rng_.fork(1);
   const double kappa = learn_frailties(model, deaths_, fates_);
   examples_ = birth_examples(model, fates_, deaths_, kappa, rng);
@@ -56,7 +60,6 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
       const bool fits = options_.looks_of_species < 0 || cable.species == options_.looks_of_species;
       if (fits && !cable.core.empty()) looks_cables_.push_back(static_cast<int>(k));
     }
-  learn_noise();
   report_.learned_per_frame = learned_per_frame(true);
   report_.deaths_by_age = deaths_.by_age;
 }
@@ -86,6 +89,8 @@ void CableSynthesizer::Population::settle(const JobContext& job) {
     report_.deaths_by_age = false;
   }
   if (options_.rate <= 0) return start_at(0, edited, edited_motion());
+  steers_ = is_steered();
+  if (steers_) learn_tally();
   warm_up(edited, edited_motion(), job);
   report_.births_per_frame = births_->births_per_frame();
   report_.bursts_per_frame = births_->bursts_per_frame();
@@ -98,12 +103,14 @@ double CableSynthesizer::Population::calibrated_rate(const JobContext& job) {
   draws_looks_ = false;
   warm_up({}, {}, job);
   double sum = 0;
-  for (std::int64_t t = 0; t < kCalibrationFrames; ++t, advance()) {
+  const auto num_frames =
+      std::clamp(static_cast<std::int64_t>(kCalibrationElements / wanted), kCalibrationFrames, kMostCalibrationFrames);
+  for (std::int64_t t = 0; t < num_frames; ++t, advance()) {
     be_born(new_births_);
     for (const Element& element : elements_) sum += !element.is_burst && is_inside(element) ? 1 : 0;
   }
   draws_looks_ = true;
-  const double found = sum / static_cast<double>(kCalibrationFrames);
+  const double found = sum / static_cast<double>(num_frames);
   return found > 0 ? std::clamp(wanted / found, 0.5, 2.0) : 1;
 }
 
@@ -128,7 +135,7 @@ void CableSynthesizer::Population::warm_up(const BirthSettings& settings, const 
     start_at(-num_frames, settings, motion);
     while (frame_ < 0) {
       job.check_cancelled();
-      be_born(new_births_);
+      begin_frame();
       advance();
     }
     report_.warm_up_frames = num_frames;
@@ -137,6 +144,12 @@ void CableSynthesizer::Population::warm_up(const BirthSettings& settings, const 
     });
     if (!remembers || num_frames >= kLongestWarmUp) return;
   }
+}
+
+void CableSynthesizer::Population::begin_frame() {
+  if (steers_) choose_future();
+  be_born(new_births_);
+  if (steers_) remember();
 }
 
 void CableSynthesizer::Population::be_born(std::vector<ElementBirth>& births) {
@@ -169,8 +182,14 @@ bool CableSynthesizer::Population::samples_looks() const {
 void CableSynthesizer::Population::move(Element& element) {
   const MovetonDynamics& law = *element.law;
   const bool is_first = element.age == 0;
-  element.x.step(law.x, element.rng);
-  element.y.step(law.y, element.rng);
+  if (element.path) {
+    const PathReplay::Step step = element.path->next();
+    element.x.follow(law.x, motion_.speed * step.dx);
+    element.y.follow(law.y, motion_.speed * step.dy);
+  } else {
+    element.x.step(law.x, element.rng);
+    element.y.step(law.y, element.rng);
+  }
   if (!samples_looks()) {
     ++element.age;
     return;
@@ -237,7 +256,7 @@ void CableSynthesizer::Population::advance() {
 }
 
 void CableSynthesizer::Population::draw(MovetonFrame& frame) {
-  be_born(new_births_);
+  begin_frame();
   frame.clear();
   frame.frame = frame_;
   for (Element& element : elements_) {

@@ -10,6 +10,7 @@
 #include "motex/core/job.h"
 #include "motex/particles/birth_process.h"
 #include "motex/particles/element.h"
+#include "motex/particles/motion_tally.h"
 #include "motex/particles/synthesize.h"
 
 namespace motex {
@@ -43,14 +44,23 @@ class CableSynthesizer::Population {
   MotionEdit edited_motion() const;
   bool has_painted_deaths() const { return !options_.sink_map.values.empty() || !options_.hazard_map.values.empty(); }
 
+  /// Births of a frame that is going to be seen.
+  void begin_frame();
   void be_born(std::vector<ElementBirth>& births);
+  bool is_steered() const;
+  void learn_tally();
+  void choose_future();
+  void tally(MotionTally& into) const;
+  void remember();
   void add(const ElementBirth& birth);
   void start_motion(Element& element, const ElementBirth& birth);
+  void start_path(Element& element, const ElementBirth& birth);
   void start_looks(Element& element, int cable);
   void back_out(Element& element, int side);
   void choose_looks(Element& element, int cable, int species);
   std::size_t law_idx(int species) const;
   void learn_noise();
+  void choose_paths();
   bool samples_looks() const;
   void move(Element& element);
   /// Whether it is still there.
@@ -76,6 +86,8 @@ class CableSynthesizer::Population {
   MotionEdit motion_;
   bool draws_looks_ = true;
   std::int64_t longest_life_ = 0;  // 0 = any
+  bool steers_ = false;            // futures are chosen
+  MotionTally wanted_, past_;
 
   std::optional<BirthProcess> births_;
   std::vector<Element> elements_;

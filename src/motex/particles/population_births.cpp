@@ -12,7 +12,6 @@ namespace motex {
 namespace {
 
 constexpr int kMostBackSteps = 200;
-constexpr std::size_t kFewestResiduals = 3;
 constexpr double kPersistent = 0.98;
 
 std::vector<double> values_of(const Cable& cable, auto value) {
@@ -58,7 +57,10 @@ void CableSynthesizer::Population::add(const ElementBirth& birth) {
   Element& element = elements_.emplace_back();
   element.rng = birth.rng;
   element.is_burst = birth.is_burst;
-  element.life = birth.life;
+  if (birth.is_burst)
+    element.life = birth.life;
+  else if (birth.life >= 0 && !has_painted_deaths())
+    element.life = std::llround(static_cast<double>(birth.life) / motion_.speed);
   if (!has_painted_deaths()) element.frailty = fates_[static_cast<std::size_t>(birth.cable)].frailty;
   element.fades_in = !birth.is_burst && !birth.enters;
   element.law = &laws_[law_idx(cable.species)];
@@ -68,7 +70,36 @@ void CableSynthesizer::Population::add(const ElementBirth& birth) {
   if (birth.enters) back_out(element, birth.side);
 }
 
+void CableSynthesizer::Population::choose_paths() {
+  for (std::size_t k = 0; k < fates_.size(); ++k) {
+    const Cable& cable = model_.cables[k];
+    const std::size_t law = law_idx(cable.species);
+    const bool obeys = noise_x_[law].is_white() && noise_y_[law].is_white() && !are_few(fates_);
+    fates_[k].repeats_path = cable.core.size() > 1 && !obeys;
+  }
+}
+
+void CableSynthesizer::Population::start_path(Element& element, const ElementBirth& birth) {
+  const MovetonDynamics& law = *element.law;
+  element.path.emplace(model_.cables[static_cast<std::size_t>(birth.cable)], birth.first_step);
+  const PathReplay::Step step = element.path->peek();
+  const auto start = [&](CoordinateWalk& walk, const CoordinateDynamics& own, double place, double first, double wind,
+                         double gravity) {
+    walk.now = place;
+    walk.drift = wind;
+    walk.before = place - motion_.speed * first - wind;
+    walk.constant = (1 - own.persistence()) * wind + gravity;
+  };
+  start(element.x, law.x, birth.x, step.dx, motion_.wind_x, 0);
+  start(element.y, law.y, birth.y, step.dy, motion_.wind_y, motion_.gravity);
+}
+
 void CableSynthesizer::Population::start_motion(Element& element, const ElementBirth& birth) {
+  if (fates_[static_cast<std::size_t>(birth.cable)].repeats_path) {
+    start_path(element, birth);
+    if (samples_looks()) start_looks(element, birth.cable);
+    return;
+  }
   const Cable& cable = model_.cables[static_cast<std::size_t>(birth.cable)];
   const auto start_place = [&](CoordinateWalk& walk, const CoordinateDynamics& law, const NoiseSpread& spread,
                                double place, auto value, double wind) {
@@ -85,10 +116,6 @@ void CableSynthesizer::Population::start_motion(Element& element, const ElementB
     walk.before = place - motion_.speed * velocity - wind;
     walk.constant = motion_.speed * constant + (1 - phi) * wind;
     walk.noise = motion_.speed * own_noise;
-    if (spread.is_white() || values.size() < kFewestResiduals + 2) return;
-    const double mean = constant_and_residuals(law, values, walk.residuals);
-    for (double& residual : walk.residuals) residual *= motion_.speed;
-    walk.constant = motion_.speed * mean + (1 - phi) * wind;
   };
   const MovetonDynamics& law = *element.law;
   const std::size_t idx = law_idx(cable.species);
@@ -147,6 +174,7 @@ void CableSynthesizer::Population::back_out(Element& element, int side) {
     element.y.before -= vy;
     ++element.outside;
   }
+  if (element.path) element.path->hold(element.outside);
 }
 
 std::vector<int> CableSynthesizer::Population::examples_for(const InsertedElement& inserted) const {
@@ -174,12 +202,14 @@ void CableSynthesizer::Population::insert(const InsertedElement& inserted) {
   add(birth);
   Element& element = elements_.back();
   element.track = inserted.track;
-  const auto set_velocity = [](CoordinateWalk& walk, const CoordinateDynamics& law, double velocity) {
+  const PathReplay::Step path = element.path ? element.path->mean() : PathReplay::Step{};
+  const auto set_velocity = [&](CoordinateWalk& walk, const CoordinateDynamics& law, double velocity, double of_path) {
     walk.before = walk.now - velocity;
-    walk.constant = (1 - law.persistence()) * velocity;
+    walk.drift = velocity - motion_.speed * of_path;
+    walk.constant = (1 - law.persistence()) * walk.drift;
   };
-  set_velocity(element.x, element.law->x, inserted.vx);
-  set_velocity(element.y, element.law->y, inserted.vy);
+  set_velocity(element.x, element.law->x, inserted.vx, path.dx);
+  set_velocity(element.y, element.law->y, inserted.vy, path.dy);
   element.fades_in = false;
 }
 

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/particles/motion_tally.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace motex {
+
+void MotionTally::add_element(double vx, double vy) {
+  const auto bin = [](double share) {
+    return static_cast<std::size_t>(std::clamp(share * static_cast<double>(kBins), 0.0, kBins - 1.0));
+  };
+  speeds_[bin(std::hypot(vx, vy) / top_speed_)] += 1;
+  directions_[bin(std::atan2(vy, vx) / (2 * std::numbers::pi) + 0.5)] += 1;
+  elements_ += 1;
+}
+
+void MotionTally::add(const MotionTally& other) {
+  frames_ += other.frames_;
+  elements_ += other.elements_;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    speeds_[k] += other.speeds_[k];
+    directions_[k] += other.directions_[k];
+  }
+}
+
+void MotionTally::fade(double times) {
+  frames_ *= times;
+  elements_ *= times;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    speeds_[k] *= times;
+    directions_[k] *= times;
+  }
+}
+
+double MotionTally::distance(const MotionTally& wanted) const {
+  const double own = std::max(elements_, 1e-9), others = std::max(wanted.elements_, 1e-9);
+  double sum = 0;
+  for (std::size_t k = 0; k < kBins; ++k)
+    sum += (std::abs(speeds_[k] / own - wanted.speeds_[k] / others) +
+            std::abs(directions_[k] / own - wanted.directions_[k] / others)) /
+           2;
+  const double count = elements_ / std::max(frames_, 1e-9), wanted_count = others / std::max(wanted.frames_, 1e-9);
+  return sum + 2 * std::abs(count / wanted_count - 1);
+}
+
+}  // namespace motex
