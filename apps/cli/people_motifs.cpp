@@ -155,14 +155,14 @@ struct Motifs {
           *std::min_element(profile.distance.begin(), profile.distance.end()) / std::sqrt(static_cast<double>(window));
       Value search;
       search["window"] = window;
-      search["distance_found"] = found.distance;
+      search["distance_found"] = found.in_matrix.distance;
       search["distance_exact"] = exact;
-      search["found_over_exact"] = found.distance / exact;
+      search["found_over_exact"] = found.in_matrix.distance / exact;
       search["radius"] = found.radius;
-      search["collisions"] = static_cast<std::int64_t>(found.collisions.back().size());
+      search["collisions"] = static_cast<std::int64_t>(found.collisions.back().cells.size());
       searches.push_back(search);
-      session.say(std::to_string(window) + " frames: closest pair found " + fixed(found.distance, 4) + ", exact " +
-                  fixed(exact, 4) + ", ratio " + fixed(found.distance / exact, 3) + ", R " + fixed(found.radius, 4));
+      session.say(std::to_string(window) + " frames: closest pair found " + fixed(found.in_matrix.distance, 4) + ", exact " +
+                  fixed(exact, 4) + ", ratio " + fixed(found.in_matrix.distance / exact, 3) + ", R " + fixed(found.radius, 4));
       set.motifs.insert(set.motifs.end(), found.motifs.begin(), found.motifs.end());
     }
     if (searches.empty()) throw InvalidInput(input + ": too short for windows of 40 frames: say a --window");

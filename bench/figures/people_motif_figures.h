@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "bench/simulated_people.h"
 #include "motex/image/planes.h"
 #include "motex/people/footage_motifs.h"
 #include "motex/people/measure_silhouette.h"
@@ -15,7 +16,6 @@
 #include "motex/project/keyed_footage.h"
 #include "motex/project/load_people.h"
 #include "motex/project/motif_pictures.h"
-#include "motex/project/simulate_actor.h"
 
 namespace motex::bench {
 
@@ -71,10 +71,7 @@ inline void draw_motif_figures(const std::string& clips, const std::filesystem::
   options.frames = 1200;
   options.seed = 3;
   const ActorSimulation scene(options);
-  PeopleTexture texture;
-  texture.width = options.width, texture.height = options.height, texture.frames_per_sec = options.frames_per_sec;
-  texture.takes = {{"simulated", 0, 0, false, {0, options.frames}}};
-  for (int t = 0; t < options.frames; ++t) texture.silhouettes.push_back(measure_silhouette(scene.sprite(t, 0)));
+  PeopleTexture texture = texture_of(scene, options);
   texture.alphabet = find_footage_motifs(texture).set;
   std::printf("figures 3 and 4: %zu actions\n", texture.alphabet.motifs.size());
   if (texture.alphabet.motifs.empty()) return;

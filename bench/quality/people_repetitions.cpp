@@ -16,10 +16,9 @@
 #include <utility>
 #include <vector>
 
+#include "bench/simulated_people.h"
 #include "motex/people/footage_motifs.h"
-#include "motex/people/measure_silhouette.h"
 #include "motex/project/people_footage.h"
-#include "motex/project/simulate_actor.h"
 
 namespace motex {
 namespace {
@@ -114,11 +113,7 @@ void score_kicks() {
   options.frames = 1200;
   options.seed = 3;
   const ActorSimulation scene(options);
-  PeopleTexture texture;
-  texture.width = options.width, texture.height = options.height, texture.frames_per_sec = options.frames_per_sec;
-  texture.takes = {{"simulated", 0, 0, false, {0, options.frames}}};
-  SilhouetteParts parts;
-  for (int t = 0; t < options.frames; ++t) texture.silhouettes.push_back(measure_silhouette(scene.sprite(t, 0), parts));
+  PeopleTexture texture = bench::texture_of(scene, options);
   texture.alphabet = find_footage_motifs(texture).set;
   std::vector<std::pair<std::string, int>> repetitions;
   for (const ActorPerformance& one : scene.performances())

@@ -7,22 +7,17 @@
 
 #include "motex/core/job.h"
 #include "motex/core/options.h"
-#include "motex/people/motif.h"
+#include "motex/people/collision_matrix.h"
+#include "motex/people/motifs.h"
 #include "motex/people/series_windows.h"
 
 namespace motex {
 
-/// One entry of the collision matrix, above the diagonal.
-struct Collision {
-  int row = 0, column = 0;  ///< first windows of two runs of equal words, row < column
-  int count = 0;            ///< masks under which their words are equal
-};
-
 struct RandomProjectionOptions {
-  int word_length = 16;
-  int alphabet = 6;
+  int word_length = 32;
+  int alphabet = 16;
   int mask_size = 6;
-  int iterations = 40;
+  int iterations = 100;
   double radius = 0;
   int max_motifs = 10;
   std::uint64_t seed = 1;
@@ -41,21 +36,27 @@ struct RandomProjectionOptions {
   }
 };
 
-struct RandomProjectionReport {
-  std::vector<Motif> motifs;                       ///< by number of non-trivial matches
-  std::vector<std::vector<Collision>> collisions;  ///< after a quarter, half and all iterations: Figure 2
-  int first = -1, second = -1;                     ///< closest pair found
-  double distance = 0;                             ///< of it, / √window
-  double radius = 0;                               ///< R, / √window
-  int num_compared = 0;                            ///< pairs whose distance was computed
+/// Two windows that resemble one another.
+struct WindowPair {
+  int first = -1, second = -1;  ///< starts; −1 = none
+  double distance = 0;          ///< / √window
 };
 
-/// Motifs by random projection of symbolic words [Chiu, Keogh, Lonardi 2003], the black box of [PT04] section 2.2:
-/// windows whose words agree under a random mask collide; pairs that collide most are compared in full. Runs of windows
-/// with one word count once (their first window), and windows less than one window apart are trivial matches that never
-/// collide. The pairs of most collisions are tried, each within a quarter of a window around, until as many in a row as
-/// were tried before bring nothing closer. A motif is the window with most non-trivial matches within R; the next ones
-/// lie more than 2R from all before. Uses the first signal.
+struct RandomProjectionReport {
+  std::vector<Motif> motifs;                ///< by number of non-trivial matches
+  std::vector<MotifCandidate> candidates;   ///< refused, one a place, at most ten
+  std::vector<CollisionMatrix> collisions;  ///< after a quarter, half and all iterations: Figure 2
+  WindowPair in_matrix;                     ///< the closest of the cells that collide most, as they stand
+  WindowPair closest;                       ///< the closest around the closest of these
+  double radius = 0;                        ///< R, / √window
+  int num_compared = 0;                     ///< pairs whose distance was computed to find the closest
+};
+
+/// Motifs by random projection of symbolic words [Chiu, Keogh, Lonardi 2003], the black box of [PT04] section 2.2: the
+/// 1,000 pairs of windows that collide most (count_collisions(), ranked_cells()) are compared in full; around the 20
+/// closest of them the neighbours are tried too, since a run of equal words is one cell. A motif is the window with
+/// most non-trivial matches within R among the 300 in which the most collisions end; the next ones lie more than 2R
+/// from all before. Uses the first signal.
 RandomProjectionReport random_projection_motifs(const SeriesWindows& windows,
                                                 const RandomProjectionOptions& options = {},
                                                 const JobContext& job = {});

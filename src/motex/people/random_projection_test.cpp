@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/people/matrix_profile.h"
 #include "motex/people/sax.h"
 
 namespace motex {
@@ -61,12 +63,55 @@ TEST(RandomProjection, FindsWhatTheExhaustiveSearchFinds) {
     EXPECT_NEAR(report.motifs[0].occurrences[k].start, exact[0].occurrences[k].start, 30);
 }
 
+TEST(RandomProjection, TheMatrixHoldsAPairNextToTheClosest) {
+  for (const std::uint64_t seed : {5U, 6U, 7U}) {
+    const SeriesWindows windows = series_windows(with_repetitions(seed), 50);
+    const MatrixProfile profile = matrix_profile(windows, 49);
+    const double exact = *std::min_element(profile.distance.begin(), profile.distance.end()) / std::sqrt(50.0);
+    const RandomProjectionReport report = random_projection_motifs(windows);
+    EXPECT_LE(report.in_matrix.distance, 1.05 * exact);
+    EXPECT_GE(report.in_matrix.distance, exact - 1e-9);
+    EXPECT_LE(report.closest.distance, report.in_matrix.distance);
+    EXPECT_GE(report.in_matrix.second - report.in_matrix.first, 50);
+    EXPECT_LT(report.num_compared, 3000);
+  }
+}
+
+TEST(RandomProjection, SaysWhyAWindowIsNoMotif) {
+  RandomProjectionOptions options;
+  options.radius = 0.45;
+  options.max_motifs = 1;
+  const RandomProjectionReport report = random_projection_motifs(series_windows(with_repetitions(3), 50), options);
+  ASSERT_EQ(report.motifs.size(), 1U);
+  ASSERT_FALSE(report.candidates.empty());
+  for (const MotifCandidate& candidate : report.candidates) {
+    ASSERT_FALSE(candidate.starts.empty());
+    const bool alone = candidate.starts.size() == 1;
+    EXPECT_EQ(candidate.reason.rfind("too few: ", 0) == 0, alone) << candidate.reason;
+    const bool is_known = candidate.reason.find("2R") != std::string::npos ||
+                          candidate.reason == "more than K = 1: those found occur at least as often";
+    EXPECT_TRUE(alone || is_known) << candidate.reason;
+  }
+}
+
+TEST(RandomProjection, TheSameSeedGivesTheSameMatrix) {
+  const SeriesWindows windows = series_windows(with_repetitions(8), 50);
+  const SaxWords words = sax_words(windows, 16, 8);
+  const std::vector<CollisionMatrix> a = count_collisions(windows, words, 6, 8, 1);
+  const std::vector<CollisionMatrix> b = count_collisions(windows, words, 6, 8, 1);
+  ASSERT_EQ(a.size(), 3U);
+  EXPECT_EQ(a[0].iteration, 2);
+  EXPECT_EQ(a[2].iteration, 8);
+  ASSERT_EQ(a[2].cells.size(), b[2].cells.size());
+  for (std::size_t k = 0; k < a[2].cells.size(); ++k) EXPECT_EQ(a[2].cells[k].count, b[2].cells[k].count);
+}
+
 TEST(RandomProjection, TrivialMatchesDoNotCollide) {
   const SeriesWindows windows = series_windows(with_repetitions(4), 50);
   const RandomProjectionReport report = random_projection_motifs(windows);
   ASSERT_EQ(report.collisions.size(), 3U);
-  EXPECT_LT(report.collisions[0].size(), report.collisions[2].size());
-  for (const Collision& collision : report.collisions[2]) EXPECT_GE(collision.column - collision.row, 50);
+  EXPECT_LT(report.collisions[0].cells.size(), report.collisions[2].cells.size());
+  for (const Collision& collision : report.collisions[2].cells) EXPECT_GE(collision.column - collision.row, 50);
 }
 
 }  // namespace
