@@ -7,18 +7,17 @@
 #include <utility>
 
 #include "motex/core/error.h"
+#include "motex/people/premultiply.h"
 
 namespace motex {
 namespace {
-
-std::uint8_t product(int value, int alpha) { return static_cast<std::uint8_t>((value * alpha + 127) / 255); }
 
 std::uint8_t quotient(int value, int alpha) {
   return static_cast<std::uint8_t>(std::min(255, (value * 255 + alpha / 2) / alpha));
 }
 
 std::uint8_t over(int front, int alpha, int back) {
-  return static_cast<std::uint8_t>(std::min(255, front + product(back, 255 - alpha)));
+  return static_cast<std::uint8_t>(std::min(255, front + premultiplied(back, 255 - alpha)));
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ Sprite sprite_of(const Image& image) {
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const Rgba& p = image.at(x, y);
-      sprite.pixels.push_back({product(p.r, p.a), product(p.g, p.a), product(p.b, p.a), p.a});
+      sprite.pixels.push_back({premultiplied(p.r, p.a), premultiplied(p.g, p.a), premultiplied(p.b, p.a), p.a});
     }
   }
   return sprite;
@@ -66,7 +65,7 @@ void paint(Image& image, const Sprite& sprite) {
       const std::uint8_t alpha = over(front[3], front[3], p.a);
       if (alpha == 0) continue;
       const auto mixed = [&](int colour, int back) {
-        return quotient(over(colour, front[3], product(back, p.a)), alpha);
+        return quotient(over(colour, front[3], premultiplied(back, p.a)), alpha);
       };
       p = {mixed(front[0], p.r), mixed(front[1], p.g), mixed(front[2], p.b), alpha};
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "motex/core/error.h"
+#include "motex/people/premultiply.h"
+#include "motex/people/warp_sprites.h"
 #include "motex/video_io/video_writer.h"
 
 namespace motex {
@@ -20,19 +22,10 @@ constexpr int kFar = 1 << 30;
 
 int rounded_up(int size) { return (size + kUnit - 1) / kUnit * kUnit; }
 
-BoundingBox box_of(const Sprite& sprite) {
-  return sprite.empty()
-             ? BoundingBox{}
-             : BoundingBox{sprite.left, sprite.top, sprite.left + sprite.width - 1, sprite.top + sprite.height - 1};
-}
-
 std::uint8_t cleaned(std::uint8_t alpha) {
   if (alpha < kCleared) return 0;
   return alpha > 255 - kCleared ? 255 : alpha;
 }
-
-/// value · alpha / 255, rounded.
-std::uint8_t times(int value, int alpha) { return static_cast<std::uint8_t>((value * alpha + 127) / 255); }
 
 }  // namespace
 
@@ -226,7 +219,8 @@ Sprite FilmChunkReader::cut_out(const Image& picture, const BoundingBox& box) co
     const Rgba* matte = &picture.at(left, height + y);
     for (int x = 0; x < sprite.width; ++x) {
       const std::uint8_t alpha = cleaned(matte[x].g);
-      sprite.pixels.push_back({times(colour[x].r, alpha), times(colour[x].g, alpha), times(colour[x].b, alpha), alpha});
+      sprite.pixels.push_back({premultiplied(colour[x].r, alpha), premultiplied(colour[x].g, alpha),
+                               premultiplied(colour[x].b, alpha), alpha});
     }
   }
   return sprite;
