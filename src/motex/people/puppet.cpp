@@ -3,6 +3,7 @@
 #include "motex/people/puppet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "motex/core/error.h"
@@ -204,39 +205,29 @@ PremultipliedRgba finished(const Cell& cell, const SpillLight& spill) {
 }  // namespace
 
 PuppetLook puppet_look(int number) {
-  PuppetLook look;
-  switch (((number % 4) + 4) % 4) {
-    case 1:
-      look = {{190, 130, 96, 255},
-              {24, 20, 22, 255},
-              {232, 186, 70, 255},
-              {120, 40, 30, 255},
-              {92, 88, 96, 255},
-              {150, 40, 40, 255},
-              0.93};
-      break;
-    case 2:
-      look = {{240, 200, 176, 255},
-              {170, 96, 40, 255},
-              {96, 70, 130, 255},
-              {214, 150, 180, 255},
-              {30, 30, 36, 255},
-              {120, 80, 50, 255},
-              1.08};
-      break;
-    case 3:
-      look = {{120, 78, 56, 255},
-              {18, 16, 16, 255},
-              {214, 206, 196, 255},
-              {190, 70, 40, 255},
-              {120, 92, 66, 255},
-              {220, 216, 210, 255},
-              1.0};
-      break;
-    default:
-      break;
-  }
-  return look;
+  static const std::array<PuppetLook, 4> kLooks{{{},
+                                                 {{190, 130, 96, 255},
+                                                  {24, 20, 22, 255},
+                                                  {232, 186, 70, 255},
+                                                  {120, 40, 30, 255},
+                                                  {92, 88, 96, 255},
+                                                  {150, 40, 40, 255},
+                                                  0.93},
+                                                 {{240, 200, 176, 255},
+                                                  {170, 96, 40, 255},
+                                                  {96, 70, 130, 255},
+                                                  {214, 150, 180, 255},
+                                                  {30, 30, 36, 255},
+                                                  {120, 80, 50, 255},
+                                                  1.08},
+                                                 {{120, 78, 56, 255},
+                                                  {18, 16, 16, 255},
+                                                  {214, 206, 196, 255},
+                                                  {190, 70, 40, 255},
+                                                  {120, 92, 66, 255},
+                                                  {220, 216, 210, 255},
+                                                  1.0}}};
+  return kLooks[static_cast<std::size_t>(((number % 4) + 4) % 4)];
 }
 
 Sprite draw_puppet(const PuppetPose& pose, const PuppetLook& look, int width, int height, const SpillLight& spill) {
