@@ -15,16 +15,13 @@
 #include "motex/particles/cable_tracks.h"
 #include "motex/project/staged_files.h"
 #include "motex/project/track_csv.h"
+#include "motex/project/video_outputs.h"
 #include "motex/video_io/video_writer.h"
 
 namespace motex {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_sequence(const fs::path& path) {
-  return path.filename().string().find('%') != std::string::npos || path.extension().empty();
-}
 
 /// Rows of a frame; counts what lies inside.
 class TrackRows {
@@ -69,7 +66,7 @@ Plane cut_to_shape(const Plane& plane, double shape) {
 
 ParticleOutputs particle_outputs(const fs::path& video) {
   fs::path whole = video.has_filename() ? video : video.parent_path();
-  std::string stem = is_sequence(whole) ? whole.filename().string() : whole.stem().string();
+  std::string stem = writes_pictures(whole) ? whole.filename().string() : whole.stem().string();
   if (const std::size_t mark = stem.find('%'); mark != std::string::npos) {
     stem.resize(mark);
     while (!stem.empty() && (stem.back() == '_' || stem.back() == '-' || stem.back() == '.')) stem.pop_back();
@@ -101,7 +98,7 @@ ParticleVideoReport write_particle_video(const ParticleVideoShape& shape, Moveto
                                          std::int64_t num_frames, const ParticleOutputs& outputs,
                                          const JobContext& job) {
   StagedFiles staged;
-  const fs::path video_path = is_sequence(outputs.video) ? outputs.video : staged.stage(outputs.video);
+  const fs::path video_path = writes_pictures(outputs.video) ? outputs.video : staged.stage(outputs.video);
   const fs::path layer_path = staged.stage(outputs.layer);
   AtomicFile table(staged.stage(outputs.tracks));
   table.write(TrackCsv::heading());

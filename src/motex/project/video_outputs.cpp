@@ -3,20 +3,17 @@
 #include "motex/project/video_outputs.h"
 
 namespace motex {
-namespace {
 
 namespace fs = std::filesystem;
 
-bool is_sequence(const fs::path& path) {
+bool writes_pictures(const fs::path& path) {
   return path.extension().empty() || path.filename().string().find('%') != std::string::npos;
 }
-
-}  // namespace
 
 VideoOutputs::VideoOutputs(const std::vector<fs::path>& paths, int width, int height, const WriteVideoOptions& options,
                            const JobContext& job) {
   for (const fs::path& path : paths)
-    writers_.emplace_back(is_sequence(path) ? path : staged_.stage(path), width, height, options, job);
+    writers_.emplace_back(writes_pictures(path) ? path : staged_.stage(path), width, height, options, job);
 }
 
 void VideoOutputs::write(const Image& image) {

@@ -11,6 +11,9 @@
 
 namespace motex {
 
+/// A folder or a pattern (f_%04d.png) of pictures rather than one file.
+bool writes_pictures(const std::filesystem::path& path);
+
 /// The same frames written to several videos, which appear together when all are finished, and never otherwise.
 class VideoOutputs {
  public:
