@@ -97,7 +97,7 @@ struct Play {
     for (int t = 0; t < num_frames; ++t) {
       while (!waiting.empty() && waiting.front().frame <= t) {
         if (waiting.front().motif < 0) {
-          if (!shown.empty()) return edit_list_of(texture, shown, options.transition_frames);
+          if (!shown.empty()) return edit_list_of_frames(texture, shown, options.transition_frames);
           throw InvalidInput("standard input: stop comes before the first frame");
         }
         director.choose(waiting.front().motif);
@@ -105,7 +105,7 @@ struct Play {
       }
       shown.push_back(director.next());
     }
-    return edit_list_of(texture, shown, options.transition_frames);
+    return edit_list_of_frames(texture, shown, options.transition_frames);
   }
 };
 

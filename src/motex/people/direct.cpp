@@ -276,11 +276,6 @@ double DirectReport::longest_latency_secs() const {
   return latency_secs.empty() ? 0 : *std::max_element(latency_secs.begin(), latency_secs.end());
 }
 
-int min_shot_frames(const DirectOptions& options, double frames_per_sec) {
-  return std::max(
-      {2, options.transition_frames + 2, static_cast<int>(std::lround(options.min_shot_secs * frames_per_sec))});
-}
-
 EditList edit_list_of(const PeopleTexture& texture, std::span<const FilmPiece> pieces,
                       std::span<const int> motif_of_step, int transition_frames) {
   EditList edits;

@@ -11,12 +11,11 @@
 #include "motex/people/film_planner.h"
 #include "motex/people/people_texture.h"
 #include "motex/people/script.h"
+#include "motex/people/shot_options.h"
 
 namespace motex {
 
-struct DirectOptions {
-  int transition_frames = 5;
-  double min_shot_secs = 0.4;
+struct DirectOptions : ShotOptions {
   double max_latency_secs = 3;
   double stand_secs = 1;
   bool loop = false;
@@ -24,9 +23,7 @@ struct DirectOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"transition_frames", "frames", "length of the morph at a cut; 0: hard cuts"}, self.transition_frames,
-          Range{0, 100});
-    visit(Field{"min_shot_secs", "s", "shortest time between two cuts"}, self.min_shot_secs, Range{0.04, 60});
+    ShotOptions::visit_fields(self, visit);
     visit(Field{"max_latency_secs", "s",
                 "longest wait between two actions; where none is that near, it takes longer with a warning"},
           self.max_latency_secs, Range{0, 600});
@@ -52,9 +49,6 @@ struct DirectReport {
 /// with `loop`, back to the beginning.
 DirectReport direct(const PeopleTexture& texture, std::span<const Direction> script, const DirectOptions& options = {},
                     std::span<const double> beats = {}, const JobContext& job = {});
-
-/// Frames between two cuts: min_shot_secs, and room for the transitions at both ends.
-int min_shot_frames(const DirectOptions& options, double frames_per_sec);
 
 /// Shots, cuts and performances of a film. Pieces go on from one another in the take or by their cuts.
 EditList edit_list_of(const PeopleTexture& texture, std::span<const FilmPiece> pieces,

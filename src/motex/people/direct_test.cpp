@@ -225,7 +225,7 @@ TEST(Director, DoesWhatIsChosenAndPlaysOn) {
   EXPECT_EQ(director.num_waiting(), 2);
   run(400);
   EXPECT_EQ(director.num_waiting(), 0);
-  const EditList edits = edit_list_of(kata(), frames, 5);
+  const EditList edits = edit_list_of_frames(kata(), frames, 5);
   check_film(kata(), edits, 10);
   EXPECT_EQ(performed(kata(), edits), "CB");
   EXPECT_THROW(director.choose(9), InvalidInput);

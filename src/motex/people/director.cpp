@@ -20,12 +20,6 @@ constexpr double kShownLately = 4;    // what it costs to show them at once agai
 constexpr double kDiscount = 0.995;
 constexpr double kTrim = 0.1;  // of an occurrence that may be missing at each end
 
-int shot_frames(const PeopleTexture& texture, const PlayOptions& options) {
-  DirectOptions same;
-  same.transition_frames = options.transition_frames, same.min_shot_secs = options.min_shot_secs;
-  return min_shot_frames(same, texture.frames_per_sec);
-}
-
 const PlayOptions& checked(const PlayOptions& options) {
   check_options(options);
   return options;
@@ -36,7 +30,7 @@ const PlayOptions& checked(const PlayOptions& options) {
 Director::Director(const PeopleTexture& texture, const PlayOptions& options)
     : texture_(texture),
       options_(checked(options)),
-      graph_(texture, shot_frames(texture, options), options.transition_frames),
+      graph_(texture, min_shot_frames(options, texture.frames_per_sec), options.transition_frames),
       rng_(options.seed),
       last_shown_(static_cast<std::size_t>(texture.num_frames()), -1'000'000) {
   std::vector<int> beginnings;
@@ -163,7 +157,8 @@ void Director::plan_free() {
   jump(way);
 }
 
-EditList edit_list_of(const PeopleTexture& texture, const std::vector<DirectedFrame>& frames, int transition_frames) {
+EditList edit_list_of_frames(const PeopleTexture& texture, const std::vector<DirectedFrame>& frames,
+                             int transition_frames) {
   std::vector<FilmPiece> pieces;
   std::vector<int> motif_of_step;
   for (const DirectedFrame& frame : frames) {
@@ -184,7 +179,7 @@ EditList play(const PeopleTexture& texture, int num_frames, const PlayOptions& o
   std::vector<DirectedFrame> frames;
   frames.reserve(static_cast<std::size_t>(num_frames));
   for (int t = 0; t < num_frames; ++t) frames.push_back(director.next());
-  EditList edits = edit_list_of(texture, frames, options.transition_frames);
+  EditList edits = edit_list_of_frames(texture, frames, options.transition_frames);
   int time = 0;
   for (Shot& shot : edits.shots) {
     for (std::size_t k = 0; k < texture.alphabet.motifs.size(); ++k)

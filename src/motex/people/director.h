@@ -11,21 +11,18 @@
 #include "motex/people/film_graph.h"
 #include "motex/people/film_planner.h"
 #include "motex/people/people_texture.h"
+#include "motex/people/shot_options.h"
 
 namespace motex {
 
-struct PlayOptions {
-  int transition_frames = 5;
-  double min_shot_secs = 0.4;
+struct PlayOptions : ShotOptions {
   double shot_secs = 5;
   double max_latency_secs = 3;
   std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"transition_frames", "frames", "length of the morph at a cut; 0: hard cuts"}, self.transition_frames,
-          Range{0, 100});
-    visit(Field{"min_shot_secs", "s", "shortest time between two cuts"}, self.min_shot_secs, Range{0.04, 60});
+    ShotOptions::visit_fields(self, visit);
     visit(Field{"shot_secs", "s", "mean time between two cuts"}, self.shot_secs, Range{0.2, 3600});
     visit(Field{"max_latency_secs", "s", "longest wait before an action that was asked for, where cuts allow it"},
           self.max_latency_secs, Range{0, 600});
@@ -83,6 +80,7 @@ class Director {
 EditList play(const PeopleTexture& texture, int num_frames, const PlayOptions& options = {});
 
 /// Film out of frames as a Director gives them.
-EditList edit_list_of(const PeopleTexture& texture, const std::vector<DirectedFrame>& frames, int transition_frames);
+EditList edit_list_of_frames(const PeopleTexture& texture, const std::vector<DirectedFrame>& frames,
+                             int transition_frames);
 
 }  // namespace motex

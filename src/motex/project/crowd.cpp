@@ -43,7 +43,7 @@ EditList film_of(const PeopleTexture& texture, const Cue& cue, int num_frames, c
   rest.secs = num_frames / texture.frames_per_sec;
   script.push_back(rest);
   DirectOptions options;
-  options.transition_frames = playing.transition_frames, options.min_shot_secs = playing.min_shot_secs;
+  static_cast<ShotOptions&>(options) = playing;
   options.max_latency_secs = playing.max_latency_secs, options.seed = playing.seed;
   return direct(texture, script, options).edits;
 }
