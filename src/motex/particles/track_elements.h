@@ -14,7 +14,7 @@ namespace motex {
 struct TrackElementsOptions {
   DetectOptions detect;
   LinkOptions link;
-  int rounds = 2;
+  int rounds = 3;
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
