@@ -26,9 +26,10 @@ struct CleanPlate {
   /// noise that neighbours share counts in full. One value for each 2 × 2 pixels (sides halved, rounded up), 1.2 … 12.
   Plane noise;
   ScreenKind kind = ScreenKind::kPlain;
-  Rgba colour;              ///< mean of the screen
-  double seen_share = 0;    ///< of the pixels: those that were seen empty; the rest is filled in from around
-  double steady_share = 1;  ///< of the pixels: those that showed one thing in at least 40 % of the frames
+  Rgba colour;                 ///< mean of the screen
+  double seen_share = 0;       ///< of the pixels: those that were seen empty; the rest is filled in from around
+  bool coarse_colour = false;  ///< VideoInfo::coarse_colour of the footage; nothing here sets it
+  double steady_share = 1;     ///< of the pixels: those that showed one thing in at least 40 % of the frames
 };
 
 /// What the background is taken for.

@@ -21,6 +21,8 @@ namespace {
 constexpr int kRimDepth = 2;    // squares up to this depth are unmixed
 constexpr int kSpillDepth = 5;  // and up to this one cleared of spill
 
+constexpr float kCoarseColours = 1.5F;  // how much wider than it is a rim looks by colours of half the resolution
+
 constexpr float kLeastNear = 0.5F;  // weight of the colours near by: about one square that is not at the very rim
 
 std::uint8_t byte(float value) { return static_cast<std::uint8_t>(value + 0.5F); }
@@ -85,7 +87,8 @@ PremultipliedRgba Keyer::State::pixel_of(const Rgba& pixel, const Rgba& plate, c
   const LevelTriple level{static_cast<float>(pixel.r), static_cast<float>(pixel.g), static_cast<float>(pixel.b)};
   const LevelTriple back{grid.gains[0] * plate.r, grid.gains[1] * plate.g, grid.gains[2] * plate.b};
   float alpha = 1;
-  if (square.depth <= kRimDepth) {
+  const bool at_rim = square.depth <= kRimDepth;
+  if (at_rim) {
     if (!square.fronts.known) return {};
     alpha = unmixed_alpha(level, back, square.fronts, square.noise, square.depth);
     if (alpha == 0) return {};
@@ -95,12 +98,12 @@ PremultipliedRgba Keyer::State::pixel_of(const Rgba& pixel, const Rgba& plate, c
   if (square.deep_known) {
     float share = spill_share(colour, square.deep, back, shared->screen_channel);
     // More than light can do at the rim is the background itself: the blur of a lens, a codec's coarse colours.
-    const bool at_rim = square.depth <= kRimDepth;
     if (at_rim && share > kMostSpill) alpha *= (1 - share) / (1 - kMostSpill);
     share = static_cast<float>(shared->options.spill) * (at_rim ? share : std::min(share, kMostSpill));
     for (std::size_t c = 0; c < 3 && share > 0; ++c)
       colour[c] = std::clamp((colour[c] - share * back[c]) / (1 - share), 0.0F, 255.0F);
   }
+  if (at_rim && shared->plate.coarse_colour) alpha = std::clamp(0.5F + kCoarseColours * (alpha - 0.5F), 0.0F, 1.0F);
   return {byte(alpha * colour[0]), byte(alpha * colour[1]), byte(alpha * colour[2]), byte(255 * alpha)};
 }
 

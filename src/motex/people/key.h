@@ -35,6 +35,7 @@ struct KeyOptions {
 ///    Further inside the actor is opaque.
 /// 3. F loses the screen's light that is on it, measured against the colour deeper inside (spill_share()); at the rim
 ///    what is too green for that is partly transparent.
+/// Where the footage has colours of half the resolution (4:2:0) α is stretched by 1.5 about ½ at last.
 /// Cost: about 1 ms for 720 × 480 pixels; nothing is allocated once buffers have grown. Not thread-safe; copies share
 /// the plate: one for each thread.
 class Keyer {

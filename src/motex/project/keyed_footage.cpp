@@ -83,6 +83,7 @@ CleanPlate KeyedFootage::plate_of_scene(int scene) {
   CleanPlate plate = plate_picture_.pixels.empty()
                          ? estimate_clean_plate(frames, options_.plate, garbage_.width > 0 ? &garbage_ : nullptr, job_)
                          : clean_plate_of(plate_picture_, frames, job_);
+  plate.coarse_colour = info().coarse_colour;
   tell_of(plate, frames);
   return plate;
 }

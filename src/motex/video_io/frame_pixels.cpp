@@ -194,6 +194,11 @@ int num_channels_of(int pixel_format) {
   return description->nb_components == 1 ? 1 : 3;
 }
 
+bool has_coarse_colour(int pixel_format) {
+  const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(pixel_format));
+  return description != nullptr && description->log2_chroma_w > 0 && description->log2_chroma_h > 0;
+}
+
 int bit_depth_of(int pixel_format) {
   const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(pixel_format));
   return description == nullptr || (description->flags & AV_PIX_FMT_FLAG_PAL) != 0 ? 8 : description->comp[0].depth;

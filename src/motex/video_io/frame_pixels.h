@@ -38,8 +38,9 @@ class PixelConverter {
   std::vector<std::uint8_t> buffer_;
 };
 
-/// Channels (1, 3, 4) and bits a channel of an AVPixelFormat.
+/// Of an AVPixelFormat: channels (1, 3, 4), bits a channel, colours at half the resolution both ways.
 int num_channels_of(int pixel_format);
 int bit_depth_of(int pixel_format);
+bool has_coarse_colour(int pixel_format);
 
 }  // namespace motex::libav

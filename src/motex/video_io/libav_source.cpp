@@ -92,6 +92,7 @@ void LibavSource::describe() {
     throw UnsupportedFile(info_.name + ": frames with more than 32768 pixels a side cannot be read");
   info_.num_channels = num_channels_of(frame_->format);
   info_.bit_depth = bit_depth_of(frame_->format);
+  info_.coarse_colour = has_coarse_colour(frame_->format);
   info_.rotation_deg = 90 * orientation.quarter_turns;
   info_.mirrored = orientation.mirrored;
   const double aspect =

@@ -15,9 +15,10 @@ struct VideoInfo {
   std::string pixel_format;  ///< as the codec stores it: "yuv420p10le", …
   int width = 0;             ///< of the frames that are handed out: rotation done
   int height = 0;
-  int num_channels = 3;  ///< 1 = grey, 3, 4 = with alpha
-  int bit_depth = 8;     ///< of a channel in the file
-  int rotation_deg = 0;  ///< clockwise, asked for by the file and done: 0, 90, 180, 270
+  int num_channels = 3;        ///< 1 = grey, 3, 4 = with alpha
+  int bit_depth = 8;           ///< of a channel in the file
+  bool coarse_colour = false;  ///< colours are stored at half the resolution of the light, both ways (4:2:0)
+  int rotation_deg = 0;        ///< clockwise, asked for by the file and done: 0, 90, 180, 270
   bool mirrored = false;
   double pixel_aspect = 1;           ///< width of a pixel / its height; frames are handed out unstretched
   double frames_per_sec = 0;         ///< average as the file says; 0 = unknown
