@@ -11,6 +11,7 @@
 #include "motex/particles/carry_bases.h"
 #include "motex/particles/explain.h"
 #include "motex/particles/learn.h"
+#include "motex/particles/traits.h"
 #include "motex/project/abnormality_figure.h"
 #include "motex/project/load_video_clip.h"
 #include "motex/project/textured_motion_file.h"
@@ -100,7 +101,7 @@ struct Explain {
       write_picture(map, abnormality_figure(observed, explanations[best], video + " under " + paths[best]));
     if (!tracks.empty()) write_file(tracks, surprise_csv(observed, explanations[best]));
     for (const std::string& path : outputs) session.say("wrote " + path);
-    report(paths, order, explanations, object, session);
+    report(paths, order, explanations, distances_of(models, observed, paths, object), object, session);
   }
 
  private:
@@ -120,8 +121,22 @@ struct Explain {
     return observed;
   }
 
+  /// How far each model is from the clip in kind.
+  static std::vector<double> distances_of(const std::vector<TexturedMotion>& models, const TexturedMotion& observed,
+                                          const std::vector<std::string>& paths, Value& object) {
+    const ClipTraits traits = traits_of(observed);
+    for (std::size_t k = 0; k < traits.values.size(); ++k)
+      object["traits"][name_of(static_cast<Trait>(k))] = traits.values[k];
+    std::vector<double> distances;
+    for (const TexturedMotion& model : models) distances.push_back(trait_distance(traits, traits_of(model)));
+    const auto nearest = std::min_element(distances.begin(), distances.end()) - distances.begin();
+    object["nearest_in_kind"] = paths[static_cast<std::size_t>(nearest)];
+    return distances;
+  }
+
   static void report(const std::vector<std::string>& paths, const std::vector<std::size_t>& order,
-                     const std::vector<Explanation>& explanations, Value& object, Session& session) {
+                     const std::vector<Explanation>& explanations, const std::vector<double>& distances, Value& object,
+                     Session& session) {
     const Explanation& first = explanations[order[0]];
     object["frames"] = static_cast<std::int64_t>(first.num_frames);
     object["elements"] = static_cast<std::int64_t>(first.surprise.size());
@@ -129,7 +144,7 @@ struct Explain {
     object["best"] = paths[order[0]];
     const std::vector<double> shares = model_probabilities(explanations);
     std::vector<std::vector<std::string>> rows{
-        {"model", "nats an element", "a frame", "behind", "births", "places", "looks", "motion", "deaths"}};
+        {"model", "nats an element", "a frame", "behind", "births", "places", "looks", "motion", "deaths", "in kind"}};
     for (const std::size_t k : order) {
       const Explanation& one = explanations[k];
       const double n = std::max(1.0, one.num_elements);
@@ -139,6 +154,7 @@ struct Explain {
       model["nats_per_element"] = one.per_element();
       model["nats_per_frame"] = one.per_frame();
       model["probability"] = shares[k];
+      model["trait_distance"] = distances[k];
       for (const auto& [name, nats] : {std::pair{"births", one.births},
                                        {"places", one.places},
                                        {"looks", one.looks},
@@ -148,11 +164,15 @@ struct Explain {
       object["models"].append(std::move(model));
       rows.push_back({paths[k], fixed(one.per_element(), 3), fixed(one.per_frame(), 1),
                       fixed(first.total() - one.total(), 0), fixed(one.births / n, 2), fixed(one.places / n, 2),
-                      fixed(one.looks / n, 2), fixed(one.motion / n, 2), fixed(one.deaths / n, 2)});
+                      fixed(one.looks / n, 2), fixed(one.motion / n, 2), fixed(one.deaths / n, 2),
+                      fixed(distances[k], 1)});
     }
-    session.result(object, std::to_string(first.surprise.size()) + " elements in " +
-                               std::to_string(static_cast<std::int64_t>(first.num_frames)) + " frames\n" +
-                               text_table(rows));
+    session.result(
+        object,
+        std::to_string(first.surprise.size()) + " elements in " +
+            std::to_string(static_cast<std::int64_t>(first.num_frames)) + " frames\n" + text_table(rows) +
+            "nearest in kind: " +
+            paths[static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) - distances.begin())]);
   }
 };
 
@@ -162,7 +182,9 @@ Command particles_explain() {
   return make_command<Explain>(
       {"particles explain", "which model a new clip looks like, and what in it does not",
        "The clip's elements are followed once; each model then says how probable they are: how many are born, where, "
-       "how they look and move, when they die. Nats are logarithms to base e; the largest sum is the best explanation.",
+       "how they look and move, when they die. Nats are logarithms to base e; the largest sum is the best explanation. "
+       "That knows the scale, contrast and wind of the clips learned from; 'in kind' compares what these do not change "
+       "(lives, births, straightness, fall, fading, bursts, …): the smallest distance is the nearest kind of motion.",
        "motex particles explain snow.motex rain.motex birds.motex new.mp4\n"
        "motex particles explain snow.motex new.mp4 --map odd.png --tracks odd.csv\n"
        "motex particles explain snow.motex birds.motex new.mp4 --num-frames 60 --json"});
