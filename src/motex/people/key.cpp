@@ -58,7 +58,13 @@ struct Keyer::State {
     bool deep_known = false;
   };
   Square square_at(int column, int row) const;
-  PremultipliedRgba pixel_of(const Rgba& pixel, const Rgba& plate, const Square& square) const;
+  using FourPixels = std::array<PremultipliedRgba, 4>;
+  PremultipliedRgba& canvas_at(int x, int y) {
+    return canvas[static_cast<std::size_t>(y) * static_cast<std::size_t>(shared->plate.picture.width) +
+                  static_cast<std::size_t>(x)];
+  }
+  void unmix(const FourTriple& level, const FourTriple& back, const Square& square, FourPixels& out) const;
+  void fill_square(const Image& frame, int column, int row, const Square& square);
   void fill_canvas(const Image& frame);
   void cut_out(Sprite& sprite, int width, int height) const;
 };
@@ -83,55 +89,71 @@ Keyer::State::Square Keyer::State::square_at(int column, int row) const {
   return square;
 }
 
-PremultipliedRgba Keyer::State::pixel_of(const Rgba& pixel, const Rgba& plate, const Square& square) const {
-  const LevelTriple level{static_cast<float>(pixel.r), static_cast<float>(pixel.g), static_cast<float>(pixel.b)};
-  const LevelTriple back{grid.gains[0] * plate.r, grid.gains[1] * plate.g, grid.gains[2] * plate.b};
-  float alpha = 1;
+void Keyer::State::unmix(const FourTriple& level, const FourTriple& back, const Square& square, FourPixels& out) const {
+  Four alpha = four_of(1);
   const bool at_rim = square.depth <= kRimDepth;
-  if (at_rim) {
-    if (!square.fronts.known) return {};
-    alpha = unmixed_alpha(level, back, square.fronts, square.noise, square.depth);
-    if (alpha == 0) return {};
-  }
-  LevelTriple colour{};
-  for (std::size_t c = 0; c < 3; ++c) colour[c] = std::clamp((level[c] - (1 - alpha) * back[c]) / alpha, 0.0F, 255.0F);
+  if (at_rim) alpha = unmixed_alpha(level, back, square.fronts, square.noise, square.depth);
+  const auto is_nothing = alpha <= 0;
+  const Four divisor = is_nothing ? four_of(1) : alpha;
+  FourTriple colour{};
+  for (std::size_t c = 0; c < 3; ++c) colour[c] = clamped((level[c] - (1 - alpha) * back[c]) / divisor, 0, 255);
   if (square.deep_known) {
-    float share = spill_share(colour, square.deep, back, shared->screen_channel);
+    Four share = spill_share(colour, square.deep, back, shared->screen_channel);
     // More than light can do at the rim is the background itself: the blur of a lens, a codec's coarse colours.
-    if (at_rim && share > kMostSpill) alpha *= (1 - share) / (1 - kMostSpill);
-    share = static_cast<float>(shared->options.spill) * (at_rim ? share : std::min(share, kMostSpill));
-    for (std::size_t c = 0; c < 3 && share > 0; ++c)
-      colour[c] = std::clamp((colour[c] - share * back[c]) / (1 - share), 0.0F, 255.0F);
+    if (at_rim) alpha = share > kMostSpill ? alpha * ((1 - share) / (1 - kMostSpill)) : alpha;
+    share = static_cast<float>(shared->options.spill) * (at_rim ? share : least_of(share, four_of(kMostSpill)));
+    for (std::size_t c = 0; c < 3; ++c) colour[c] = clamped((colour[c] - share * back[c]) / (1 - share), 0, 255);
   }
-  if (at_rim && shared->plate.coarse_colour) alpha = std::clamp(0.5F + kCoarseColours * (alpha - 0.5F), 0.0F, 1.0F);
-  return {byte(alpha * colour[0]), byte(alpha * colour[1]), byte(alpha * colour[2]), byte(255 * alpha)};
+  if (at_rim && shared->plate.coarse_colour) alpha = clamped(0.5F + kCoarseColours * (alpha - 0.5F), 0, 1);
+  alpha = is_nothing ? four_of(0) : alpha;
+  for (std::size_t i = 0; i < 4; ++i)
+    out[i] = {byte(alpha[i] * colour[0][i]), byte(alpha[i] * colour[1][i]), byte(alpha[i] * colour[2][i]),
+              byte(255 * alpha[i])};
+}
+
+void Keyer::State::fill_square(const Image& frame, int column, int row, const Square& square) {
+  const Image& plate = shared->plate.picture;
+  const int left = 2 * column, top = 2 * row;
+  const int right = std::min(left + 1, frame.width - 1), bottom = std::min(top + 1, frame.height - 1);
+  const std::array<Rgba, 4> p{frame.at(left, top), frame.at(right, top), frame.at(left, bottom),
+                              frame.at(right, bottom)};
+  const std::array<Rgba, 4> q{plate.at(left, top), plate.at(right, top), plate.at(left, bottom),
+                              plate.at(right, bottom)};
+  FourTriple level{}, back{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    level[0][i] = p[i].r, level[1][i] = p[i].g, level[2][i] = p[i].b;
+    back[0][i] = q[i].r, back[1][i] = q[i].g, back[2][i] = q[i].b;
+  }
+  for (std::size_t c = 0; c < 3; ++c) back[c] *= grid.gains[c];
+  FourPixels out{};
+  if (square.depth > kRimDepth || square.fronts.known) unmix(level, back, square, out);
+  canvas_at(left, top) = out[0], canvas_at(right, top) = out[right > left ? 1 : 0];
+  if (bottom > top) canvas_at(left, bottom) = out[2], canvas_at(right, bottom) = out[right > left ? 3 : 2];
 }
 
 void Keyer::State::fill_canvas(const Image& frame) {
   const BoundingBox box = grid.rim_box();
-  const Image& plate = shared->plate.picture;
-  const bool has_garbage = shared->garbage.width > 0;
   for (int row = box.top; row <= box.bottom; ++row) {
+    const int top = 2 * row, bottom = std::min(top + 1, frame.height - 1);
     for (int column = box.left; column <= box.right; ++column) {
       const std::size_t at = grid.sums.index(column, row);
       const int depth = grid.depths[at];
-      const bool empty = depth == 0 && grid.rim[at] == 0, whole = depth > kSpillDepth;
-      const Square square = empty || whole ? Square{} : square_at(column, row);
-      for (int y = 2 * row; y <= std::min(2 * row + 1, frame.height - 1); ++y) {
-        for (int x = 2 * column; x <= std::min(2 * column + 1, frame.width - 1); ++x) {
-          PremultipliedRgba& out =
-              canvas[static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) + static_cast<std::size_t>(x)];
-          const Rgba& p = frame.at(x, y);
-          if (empty || (has_garbage && shared->garbage.at(x, y)))
-            out = {};
-          else if (whole)
-            out = {p.r, p.g, p.b, 255};
-          else
-            out = pixel_of(p, plate.at(x, y), square);
-        }
+      const bool is_empty = depth == 0 && grid.rim[at] == 0;
+      if (!is_empty && depth <= kSpillDepth) {
+        fill_square(frame, column, row, square_at(column, row));
+        continue;
       }
+      for (int y = top; y <= bottom; ++y)
+        for (int x = 2 * column; x <= std::min(2 * column + 1, frame.width - 1); ++x) {
+          const Rgba& p = frame.at(x, y);
+          canvas_at(x, y) = is_empty ? PremultipliedRgba{} : PremultipliedRgba{p.r, p.g, p.b, 255};
+        }
     }
   }
+  if (shared->garbage.width == 0) return;
+  for (int y = 2 * box.top; y <= std::min(2 * box.bottom + 1, frame.height - 1); ++y)
+    for (int x = 2 * box.left; x <= std::min(2 * box.right + 1, frame.width - 1); ++x)
+      if (shared->garbage.at(x, y)) canvas_at(x, y) = {};
 }
 
 void Keyer::State::cut_out(Sprite& sprite, int width, int height) const {
