@@ -56,9 +56,11 @@ Cells cells_of(std::string_view line, char separator) {
   }
 }
 
+/// Tells which frame it is, not what is seen in it (those of motex people signals too).
 bool only_counts(const std::string& name) {
   const std::string word = lower(name);
-  for (const char* known : {"frame", "frames", "time", "index", "start", "t", "time_secs", "secs", "seconds"})
+  for (const char* known : {"frame", "frames", "time", "index", "start", "t", "time_secs", "secs", "seconds",
+                            "source_frame", "person", "mirrored", "seen"})
     if (word == known) return true;
   return false;
 }
@@ -66,7 +68,7 @@ bool only_counts(const std::string& name) {
 std::string quoted(std::string_view text) { return "'" + std::string(text.substr(0, 40)) + "'"; }
 
 std::vector<std::size_t> wanted(const std::vector<std::string>& names, const std::vector<std::string>& columns,
-                                const std::string& file) {
+                                const std::vector<bool>& is_text, const std::string& file) {
   std::vector<std::size_t> out;
   for (const std::string& column : columns) {
     const auto at = std::find(names.begin(), names.end(), column);
@@ -80,12 +82,14 @@ std::vector<std::size_t> wanted(const std::vector<std::string>& names, const std
       for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
       throw InvalidInput(file + ": has no column " + quoted(column) + ", only " + known);
     }
+    if (is_text[place]) throw InvalidInput(file + ": column " + quoted(column) + " holds text: a series is of numbers");
     out.push_back(place);
   }
   if (!columns.empty()) return out;
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (names.size() == 1 || !only_counts(names[k])) out.push_back(k);
-  if (out.empty()) out.push_back(names.size() - 1);
+    if (!is_text[k] && (names.size() == 1 || !only_counts(names[k]))) out.push_back(k);
+  for (std::size_t k = names.size(); out.empty() && k-- > 0;)
+    if (!is_text[k]) out.push_back(k);
   return out;
 }
 
@@ -95,6 +99,7 @@ SeriesTable parse_series_csv(std::string_view text, const std::string& name, con
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   SeriesTable table;
   std::vector<double> values;
+  std::vector<bool> is_text;  // of a column: its first cell under a heading
   std::size_t width = 0, num_finite = 0;
   char separator = 0;
   std::int64_t line_number = 0;
@@ -120,15 +125,17 @@ SeriesTable parse_series_csv(std::string_view text, const std::string& name, con
     if (cells.size() != width)
       fail(std::to_string(cells.size()) + (cells.size() == 1 ? " cell" : " cells") + " where the first line has " +
            std::to_string(width));
-    for (const std::string_view cell : cells) {
-      const std::optional<double> value = number(cell);
+    for (std::size_t k = is_text.size(); k < width; ++k) is_text.push_back(width > 1 && !number(cells[k]));
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::string_view cell = cells[k];
+      const std::optional<double> value = is_text[k] ? std::numeric_limits<double>::quiet_NaN() : number(cell);
       if (!value) fail(quoted(cell) + " is no number");
       values.push_back(*value);
       num_finite += std::isfinite(*value) ? 1 : 0;
     }
   }
   if (num_finite == 0) throw InvalidInput(name + ": there is no number in it: a series has one on each line");
-  const std::vector<std::size_t> places = wanted(table.names, columns, name);
+  const std::vector<std::size_t> places = wanted(table.names, columns, is_text, name);
   const auto num_frames = static_cast<Index>(values.size() / width);
   table.values.resize(num_frames, static_cast<Index>(places.size()));
   std::vector<std::string> names;

@@ -18,9 +18,10 @@ struct SeriesTable {
 
 /// A table of numbers, one frame a line: separators comma, semicolon, tab or blanks; a heading in the first line if it
 /// holds anything but numbers; lines that are empty or begin with # are skipped; an empty cell, nan, na, null and inf
-/// are gaps. columns: names (or numbers from 1) of those wanted, in this order; empty = all but one that only counts
-/// (frame, time, index, start, t). Throws ParseError with the line (text where a number belongs, too few or too many
-/// cells), InvalidInput (no number at all, no such column). name: for messages.
+/// are gaps. columns: names (or numbers from 1) of those wanted, in this order; empty = all but those that only tell
+/// which frame it is (frame, time, index, start, t, …) and those whose first cell is text (the source in a table of
+/// motex people signals). Throws ParseError with the line (text where a number belongs, too few or too many cells),
+/// InvalidInput (no number at all, no such column, one of text). name: for messages.
 SeriesTable parse_series_csv(std::string_view text, const std::string& name,
                              const std::vector<std::string>& columns = {});
 

@@ -39,6 +39,16 @@ TEST(SeriesCsv, OneColumnWithAndWithoutHeading) {
   }
 }
 
+TEST(SeriesCsv, ColumnsOfTextAreNoSignals) {
+  const char* text = "frame,source,aspect\n0,a.mp4,0.5\n1,b.mp4,0.6\n";
+  const SeriesTable table = parse_series_csv(text, "x.csv");
+  EXPECT_EQ(table.names, std::vector<std::string>{"aspect"});
+  EXPECT_EQ(table.values(1, 0), 0.6);
+  EXPECT_EQ(parse_series_csv(text, "x.csv", {"aspect"}).values(0, 0), 0.5);
+  EXPECT_THROW(parse_series_csv(text, "x.csv", {"source"}), InvalidInput);
+  expect_error("aspect,b\n1,2\nthree,4\n", "x.csv:3: 'three' is no number");
+}
+
 TEST(SeriesCsv, GapsAreNaN) {
   const SeriesTable table = parse_series_csv("a;b\n1;\nNaN;2\ninf;NA\n", "x.csv");
   ASSERT_EQ(table.values.cols(), 2);
