@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "motex/core/error.h"
 #include "motex/core/options_check.h"
 #include "motex/core/quantile.h"
 #include "motex/people/activity.h"
@@ -21,7 +23,7 @@ constexpr int kShortestWindow = 4;
 constexpr double kLengthStep = 1.12;
 constexpr double kLevelSecs = 0.8;
 constexpr double kDriftSecs = 5;
-constexpr std::size_t kMostCandidates = 10;
+constexpr std::size_t kMostCandidates = 16;
 
 bool overlaps(const Match& a, const Occurrence& b) {
   const int shared = std::min(a.start + a.length, b.start + b.length) - std::max(a.start, b.start);
@@ -29,6 +31,9 @@ bool overlaps(const Match& a, const Occurrence& b) {
 }
 
 std::vector<int> lengths(const FindMotifsOptions& options, int longest) {
+  if (2 * options.window > longest)
+    throw InvalidInput("windows of " + std::to_string(options.window) + " frames in a series of " +
+                       std::to_string(longest) + ": say one of at most half of it");
   if (options.window > 0) return {options.window};
   std::vector<int> out;
   const double least = std::max<double>(kShortestWindow, options.min_secs * options.frames_per_sec);
@@ -87,9 +92,14 @@ void drop_taken(MotifSeed& seed, const Motif& motif, const FindMotifsOptions& op
 }
 
 std::string chance_words(double gain, double needed) {
-  const double times = std::exp(needed - gain);
-  return times >= 100 ? "100 times as often as allowed or more"
-                      : std::to_string(std::lround(std::ceil(times))) + " times as often as allowed";
+  char text[120];
+  std::snprintf(text, sizeof text, "not significant: −ln P of so many so alike by chance is %.1f, %.1f is needed", gain,
+                needed);
+  return text;
+}
+
+std::string overlap_words(const Motif& motif) {
+  return "overlaps occurrences of the motif at frame " + std::to_string(motif.exemplar);
 }
 
 /// A motif that was found, with the pattern's other matches.
@@ -133,11 +143,19 @@ MotifCandidate candidate_of(const MotifSeed& seed, std::string reason) {
 /// The most significant first; each takes its frames.
 void select(const MotifSearch& search, std::vector<MotifSeed>& seeds, double needed, std::vector<Accepted>& accepted,
             std::vector<MotifCandidate>& candidates) {
-  const auto drop_everywhere = [&](const Motif& motif) {
-    for (MotifSeed& seed : seeds)
-      if (seed.count > 1) drop_taken(seed, motif, search.options);
+  const auto drop_everywhere = [&](const Motif& motif, const std::string& told = {}) {
+    MotifSeed lost;  // the most significant pattern that this leaves without a second occurrence
+    for (MotifSeed& seed : seeds) {
+      if (seed.count <= 1) continue;
+      const bool is_told = !told.empty() && seed.gain >= needed && seed.gain > lost.gain;
+      MotifSeed before;
+      if (is_told) before = seed;
+      drop_taken(seed, motif, search.options);
+      if (is_told && seed.count <= 1) lost = std::move(before);
+    }
+    if (lost.count > 1 && candidates.size() < kMostCandidates) candidates.push_back(candidate_of(lost, told));
   };
-  for (const Accepted& known : accepted) drop_everywhere(known.motif);
+  for (const Accepted& known : accepted) drop_everywhere(known.motif, overlap_words(known.motif));
   while (true) {
     MotifSeed* best = nullptr;
     for (MotifSeed& seed : seeds)
@@ -148,21 +166,28 @@ void select(const MotifSearch& search, std::vector<MotifSeed>& seeds, double nee
     Motif motif = motif_of(search, seed);
     if (seed.gain < needed) {
       if (candidates.size() >= kMostCandidates) return;
-      candidates.push_back(candidate_of(seed, "chance brings as much " + chance_words(seed.gain, needed)));
+      candidates.push_back(candidate_of(seed, chance_words(seed.gain, needed)));
       drop_everywhere(motif);
       continue;
     }
-    if (is_several(search, seed)) continue;
+    if (is_several(search, seed)) {
+      if (candidates.size() < kMostCandidates)
+        candidates.push_back(candidate_of(seed, "repeats within itself: one performance is shorter"));
+      continue;
+    }
+    std::string told;
     if (Accepted* known = same_action(accepted, seed)) {
+      told = overlap_words(known->motif);
       join(known->motif, motif);
     } else if (static_cast<int>(accepted.size()) >= search.options.max_motifs) {
-      candidates.push_back(
-          candidate_of(seed, "there are " + std::to_string(accepted.size()) + " motifs of more weight"));
+      candidates.push_back(candidate_of(
+          seed, "more than K = " + std::to_string(accepted.size()) + ": those found are more significant"));
       if (candidates.size() >= kMostCandidates) return;
     } else {
       accepted.push_back({motif, {seed.matches.begin() + seed.count, seed.matches.end()}});
+      told = overlap_words(motif);
     }
-    drop_everywhere(motif);
+    drop_everywhere(motif, told);
   }
 }
 

@@ -100,6 +100,25 @@ TEST(Motifs, TheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Motifs, CandidatesSayWhyTheyAreNone) {
+  std::vector<std::vector<int>> truth;
+  const FrameMatrix series = planted(truth, 5);
+  FindMotifsOptions options;
+  options.max_motifs = 1;
+  const MotifReport report = find_motifs(series, options);
+  ASSERT_EQ(report.set.motifs.size(), 1U);
+  int num_over_k = 0;
+  for (const MotifCandidate& candidate : report.candidates) {
+    EXPECT_GE(candidate.starts.size(), 2U);
+    const auto says = [&](const char* words) { return candidate.reason.find(words) != std::string::npos; };
+    EXPECT_TRUE(says("more than K = 1") || says("overlaps occurrences of the motif at frame") ||
+                says("not significant: ") || says("repeats within itself"))
+        << candidate.reason;
+    num_over_k += says("more than K = 1") ? 1 : 0;
+  }
+  EXPECT_GE(num_over_k, 1);
+}
+
 TEST(Motifs, Letters) {
   EXPECT_EQ(motif_letter(0), "A");
   EXPECT_EQ(motif_letter(25), "Z");
