@@ -2,18 +2,23 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <utility>
 
+#include "closest.h"
 #include "commands.h"
 #include "motex/core/files.h"
+#include "motex/core/options_check.h"
 #include "motex/people/matrix_profile.h"
 #include "motex/people/motifs.h"
-#include "motex/people/random_projection.h"
+#include "motex/people/paper_motifs.h"
+#include "motex/people/signals.h"
+#include "motex/project/motif_pictures.h"
 #include "motex/project/series_csv.h"
 #include "options_value.h"
 #include "output_file.h"
+#include "people_alphabet.h"
 #include "people_motifs_footage.h"
-#include "text_table.h"
+#include "people_motifs_paper.h"
 
 namespace motex::cli {
 namespace {
@@ -29,66 +34,19 @@ std::string profile_csv(const MatrixProfile& profile) {
   return text;
 }
 
-Value motif_value(const Motif& motif) {
-  std::vector<int> starts, lengths;
-  std::vector<double> distances;
-  for (const Occurrence& occurrence : motif.occurrences) {
-    starts.push_back(occurrence.start);
-    lengths.push_back(occurrence.length);
-    distances.push_back(occurrence.distance);
-  }
-  Value value;
-  value["letter"] = motif.letter;
-  value["window"] = motif.window;
-  value["distance"] = motif.distance;
-  value["radius"] = motif.radius;
-  value["count"] = static_cast<std::int64_t>(starts.size());
-  value["exemplar"] = motif.exemplar;
-  value["starts"] = starts;
-  value["lengths"] = lengths;
-  value["distances"] = distances;
-  return value;
-}
-
-Value idle_value(const std::vector<FrameSpan>& spans) {
-  Value::List list;
-  for (const FrameSpan& span : spans) {
-    Value value;
-    value["start"] = span.start;
-    value["length"] = span.length;
-    list.push_back(value);
-  }
-  return list;
-}
-
-Value candidates_value(const std::vector<MotifCandidate>& candidates) {
-  Value::List list;
-  for (const MotifCandidate& candidate : candidates) {
-    Value value;
-    value["window"] = candidate.window;
-    value["distance"] = candidate.distance;
-    value["count"] = static_cast<std::int64_t>(candidate.starts.size());
-    value["starts"] = candidate.starts;
-    value["reason"] = candidate.reason;
-    list.push_back(value);
-  }
-  return list;
-}
-
-std::string list_of(const std::vector<Occurrence>& occurrences) {
-  constexpr std::size_t kMost = 8;
-  std::string text;
-  for (std::size_t k = 0; k < std::min(kMost, occurrences.size()); ++k)
-    text += (k > 0 ? " " : "") + std::to_string(occurrences[k].start);
-  return occurrences.size() > kMost ? text + " …" : text;
+/// The signal that is drawn and that --paper looks at: the aspect ratio, else the first.
+Signal main_signal(const SeriesTable& table) {
+  const auto aspect = std::find(table.names.begin(), table.names.end(), "aspect");
+  const auto column = aspect == table.names.end() ? 0 : aspect - table.names.begin();
+  const Vector values = table.values.col(column);
+  return {table.names[static_cast<std::size_t>(column)], "", {values.begin(), values.end()}};
 }
 
 struct Motifs {
   std::string input, profile_path;
   std::vector<std::string> columns;
-  FindMotifsOptions options;
+  MotifRequest request;
   FootageMotifs footage;
-  bool paper = false;
 
   void declare(Arguments& arguments) {
     arguments.positional("VIDEO|MODEL|SERIES",
@@ -98,83 +56,87 @@ struct Motifs {
     arguments.value("--column", "NAME", "use this column (name, or number from 1); may be repeated (default: all)",
                     columns);
     arguments.value("--profile", "CSV", "write the exact matrix profile: start, distance, nearest", profile_path);
-    arguments.value("--fps", "RATE", "frames a second of the series (default 30)", options.frames_per_sec);
+    arguments.value("--fps", "RATE", "frames a second of the series (default 30)", request.options.frames_per_sec);
     arguments.toggle("--paper", "as the paper: random projection of one signal, windows of 40, 80 and 160 frames",
-                     paper);
+                     request.paper);
+    arguments.value("--picture", "FILE",
+                    "draw two occurrences of each motif as curves, of footage the alphabet and film strips too, with "
+                    "--paper the collision matrix (.png or .svg); may be given several times",
+                    request.pictures);
     arguments.section("Finding motifs");
-    arguments.options(options);
-    footage.declare(arguments);
+    arguments.options(request.options);
+    footage.source.declare_keying(arguments);
   }
 
   void run(Session& session) {
-    if (!is_series_file(input)) {
-      if (!profile_path.empty() || !columns.empty() || paper)
-        throw InvalidInput("--profile, --column and --paper go with a SERIES (.csv); motex people signals writes one");
-      return footage.run(input, options, session);
-    }
-    if (footage.is_asked_for()) throw InvalidInput("--picture goes with VIDEO|MODEL");
-    if (!profile_path.empty()) check_output(profile_path, {".csv"}, session);
-    if (!(options.frames_per_sec > 0 && options.frames_per_sec <= 1e4))
-      throw InvalidInput("--fps: frames a second, above 0");
-    const SeriesTable table = parse_series_csv(read_file(input), input, columns);
-    if (session.flags.dry_run)
-      return would_write(profile_path.empty() ? std::vector<std::string>{} : std::vector<std::string>{profile_path},
-                         table.values.rows(), session);
-    Value object;
-    MotifReport report;
-    if (paper)
-      report.set = paper_motifs(table, object, session);
-    else
-      report = find_motifs(table.values, options, {}, session.job(0, profile_path.empty() ? 1 : 0.9));
-    object["input"] = input;
-    object["frames"] = static_cast<std::int64_t>(table.values.rows());
-    object["signals"] = table.names;
-    if (!profile_path.empty()) write_profile(table.values, report, object, session);
-    describe(report, object, session);
+    check_options(request.options);
+    if (is_series_file(input)) return run_series(session);
+    if (!profile_path.empty() || !columns.empty())
+      throw InvalidInput("--profile and --column go with a SERIES (.csv); motex people signals writes one");
+    footage.run(input, request, session);
   }
 
  private:
-  /// Random projection for each of the paper's lengths; the aspect ratio, else the first signal. What was found is told
-  /// beside what is exact.
-  MotifSet paper_motifs(const SeriesTable& table, Value& object, Session& session) const {
-    const auto aspect = std::find(table.names.begin(), table.names.end(), "aspect");
-    const Index column = aspect == table.names.end() ? 0 : aspect - table.names.begin();
-    std::vector<int> lengths{40, 80, 160};
-    if (options.window > 0) lengths = {options.window};
-    MotifSet set;
-    Value::List searches;
-    for (const int window : lengths) {
-      if (options.window == 0 && 2 * window > table.values.rows()) continue;
-      const SeriesWindows windows = series_windows(table.values.col(column), window);
-      RandomProjectionOptions projection;
-      projection.radius = options.radius;
-      projection.max_motifs = std::min(options.max_motifs, 10);
-      const RandomProjectionReport found = random_projection_motifs(windows, projection, session.job());
-      const MatrixProfile profile = matrix_profile(windows, window - 1, session.job());
-      const double exact =
-          *std::min_element(profile.distance.begin(), profile.distance.end()) / std::sqrt(static_cast<double>(window));
-      Value search;
-      search["window"] = window;
-      search["distance_found"] = found.in_matrix.distance;
-      search["distance_exact"] = exact;
-      search["found_over_exact"] = found.in_matrix.distance / exact;
-      search["radius"] = found.radius;
-      search["collisions"] = static_cast<std::int64_t>(found.collisions.back().cells.size());
-      searches.push_back(search);
-      session.say(std::to_string(window) + " frames: closest pair found " + fixed(found.in_matrix.distance, 4) + ", exact " +
-                  fixed(exact, 4) + ", ratio " + fixed(found.in_matrix.distance / exact, 3) + ", R " + fixed(found.radius, 4));
-      set.motifs.insert(set.motifs.end(), found.motifs.begin(), found.motifs.end());
+  void run_series(Session& session) const {
+    const FindMotifsOptions& options = request.options;
+    std::vector<std::string> outputs = request.pictures;
+    check_outputs(outputs, {".png", ".svg"}, session);
+    if (!profile_path.empty()) {
+      check_output(profile_path, {".csv"}, session);
+      outputs.push_back(profile_path);
     }
-    if (searches.empty()) throw InvalidInput(input + ": too short for windows of 40 frames: say a --window");
-    std::stable_sort(set.motifs.begin(), set.motifs.end(),
-                     [](const Motif& a, const Motif& b) { return a.occurrences.size() > b.occurrences.size(); });
-    for (std::size_t k = 0; k < set.motifs.size(); ++k) set.motifs[k].letter = motif_letter(static_cast<int>(k));
-    object["searches"] = searches;
-    return set;
+    if (!(options.frames_per_sec > 0 && options.frames_per_sec <= 1e4))
+      throw InvalidInput("--fps: frames a second, above 0");
+    const SeriesTable table = parse_series_csv(read_file(input), input, columns);
+    if (session.flags.dry_run) return would_write(outputs, table.values.rows(), session);
+    Value object;
+    object["input"] = input;
+    object["frames"] = static_cast<std::int64_t>(table.values.rows());
+    object["signals"] = table.names;
+    MotifReport report;
+    std::vector<PaperSearch> searches;
+    const JobContext job = session.job(0, outputs.empty() ? 1 : 0.9);
+    if (request.paper) {
+      PaperMotifReport found = paper_motifs(table, object, job);
+      report = {std::move(found.set), std::move(found.candidates), {}};
+      searches = std::move(found.searches);
+      say_searches(searches, session);
+    } else {
+      report = find_motifs(table.values, options, {}, job);
+    }
+    write_pictures(table, report.set, searches, session);
+    if (!profile_path.empty()) write_profile(table.values, report, object, session);
+    object["motifs"] = motifs_value(report.set);
+    object["idle"] = spans_value(report.set.idle);
+    object["candidates"] = candidates_value(report.candidates);
+    if (request.paper) object["searches"] = searches_value(searches);
+    object["options"] = options_value(options);
+    session.result(object, alphabet_text(report.set, report.candidates, 0));
+  }
+
+  PaperMotifReport paper_motifs(const SeriesTable& table, Value& object, const JobContext& job) const {
+    const Signal signal = main_signal(table);
+    object["signal"] = signal.name;
+    try {
+      return find_paper_motifs(Eigen::Map<const Vector>(signal.values.data(), table.values.rows()), request.options, {},
+                               job);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(input + ": " + error.what());
+    }
+  }
+
+  void write_pictures(const SeriesTable& table, const MotifSet& set, const std::vector<PaperSearch>& searches,
+                      Session& session) const {
+    if (request.pictures.empty()) return;
+    if (set.motifs.empty() && searches.empty())
+      return session.warn("nothing repeats, so " + enumerate(request.pictures) + " is not written");
+    const Drawing drawing = draw_series_page(set, main_signal(table), searches);
+    for (const std::string& picture : request.pictures) write_picture(picture, drawing);
+    session.say("wrote " + enumerate(request.pictures));
   }
 
   void write_profile(const FrameMatrix& series, const MotifReport& report, Value& object, Session& session) const {
-    int window = options.window;
+    int window = request.options.window;
     if (window == 0 && !report.set.motifs.empty()) window = report.set.motifs[0].window;
     if (window == 0 && !report.windows.empty()) window = report.windows[report.windows.size() / 2];
     if (window == 0) throw InvalidInput("--profile: say a --window of at most half of the series");
@@ -184,29 +146,6 @@ struct Motifs {
     object["profile_window"] = window;
     object["profile_exclusion"] = profile.exclusion;
     session.say("wrote " + profile_path);
-  }
-
-  void describe(const MotifReport& report, Value& object, Session& session) const {
-    Value::List motifs;
-    std::vector<std::vector<std::string>> rows{{"motif", "times", "frames", "closest", "R", "begins at"}};
-    for (const Motif& motif : report.set.motifs) {
-      motifs.push_back(motif_value(motif));
-      rows.push_back({motif.letter, std::to_string(motif.occurrences.size()), std::to_string(motif.window),
-                      fixed(motif.distance, 3), fixed(motif.radius, 3), list_of(motif.occurrences)});
-    }
-    object["motifs"] = motifs;
-    object["idle"] = idle_value(report.set.idle);
-    object["candidates"] = candidates_value(report.candidates);
-    object["options"] = options_value(options);
-    std::string text = report.set.motifs.empty() ? "nothing repeats more often than by chance\n" : text_table(rows);
-    int idle_frames = 0;
-    for (const FrameSpan& span : report.set.idle) idle_frames += span.length;
-    text += "idle: " + std::to_string(idle_frames) + " frames in " + std::to_string(report.set.idle.size()) +
-            " stretches\n";
-    for (const MotifCandidate& candidate : report.candidates)
-      text += "no motif: " + std::to_string(candidate.starts.size()) + " × " + std::to_string(candidate.window) +
-              " frames at " + std::to_string(candidate.starts[0]) + ": " + candidate.reason + "\n";
-    session.result(object, text);
   }
 };
 
@@ -222,7 +161,7 @@ Command people_motifs() {
        "motex people motifs actor.mp4 --picture alphabet.png\n"
        "motex people motifs actor.motex --json\n"
        "motex people motifs aspect.csv\n"
-       "motex people motifs aspect.csv --paper --json\n"
+       "motex people motifs aspect.csv --paper --picture collisions.png\n"
        "motex people motifs signals.csv --column aspect --window 80 --profile profile.csv --json"});
 }
 

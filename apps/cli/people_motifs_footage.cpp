@@ -5,13 +5,13 @@
 #include <utility>
 
 #include "closest.h"
-#include "motex/core/options_check.h"
 #include "motex/people/footage_motifs.h"
+#include "motex/people/paper_motifs.h"
 #include "motex/project/motif_pictures.h"
 #include "options_value.h"
 #include "output_file.h"
 #include "people_alphabet.h"
-#include "text_table.h"
+#include "people_motifs_paper.h"
 
 namespace motex::cli {
 namespace {
@@ -20,32 +20,10 @@ bool are_default(const FindMotifsOptions& options) {
   return to_json(options_value(options)) == to_json(options_value(FindMotifsOptions{}));
 }
 
-Value candidates_value(const std::vector<MotifCandidate>& candidates) {
-  Value list = Value::List();
-  for (const MotifCandidate& candidate : candidates) {
-    Value one;
-    one["window"] = candidate.window;
-    one["distance"] = candidate.distance;
-    one["count"] = static_cast<std::int64_t>(candidate.starts.size());
-    one["starts"] = candidate.starts;
-    one["reason"] = candidate.reason;
-    list.append(std::move(one));
-  }
-  return list;
-}
-
-std::string text_of(const PeopleTexture& texture, const std::vector<MotifCandidate>& candidates) {
-  if (texture.alphabet.motifs.empty()) return "nothing repeats more often than by chance\n";
-  std::string text = alphabet_table(texture);
-  int idle = 0;
-  for (const FrameSpan& span : texture.alphabet.idle) idle += span.length;
-  text += "idle: " + fixed(idle / texture.frames_per_sec, 1) + " s in " + std::to_string(texture.alphabet.idle.size()) +
-          " stretches\n";
-  for (const MotifCandidate& candidate : candidates)
-    if (!candidate.starts.empty())
-      text += "no motif: " + std::to_string(candidate.starts.size()) + " × " + std::to_string(candidate.window) +
-              " frames at " + std::to_string(candidate.starts[0]) + ": " + candidate.reason + "\n";
-  return text;
+/// With collision matrices what they show can be drawn even where nothing repeats.
+Drawing picture_of(const LoadedPeople& people, const std::vector<PaperSearch>& searches) {
+  if (people.texture.alphabet.motifs.empty()) return draw_collisions(searches);
+  return draw_motif_page(people.texture, *people.pictures, searches);
 }
 
 }  // namespace
@@ -55,34 +33,33 @@ bool is_series_file(const std::string& path) {
   return extension == ".csv" || extension == ".tsv" || extension == ".txt";
 }
 
-void FootageMotifs::declare(Arguments& arguments) {
-  arguments.value("--picture", "FILE",
-                  "of footage: draw the alphabet, two performances of each action as curves and film strips (.png or "
-                  ".svg); may be given several times",
-                  pictures);
-  source.declare_keying(arguments);
-}
-
-void FootageMotifs::run(const std::string& path, const FindMotifsOptions& options, Session& session) {
-  check_options(options);
-  check_outputs(pictures, {".png", ".svg"}, session);
+void FootageMotifs::run(const std::string& path, const MotifRequest& request, Session& session) {
+  check_outputs(request.pictures, {".png", ".svg"}, session);
   source.path = path;
   source.check();
-  if (session.flags.dry_run) return would_write(pictures, -1, session);
+  if (session.flags.dry_run) return would_write(request.pictures, -1, session);
   LoadedPeople people = source.load(session.job(0, 0.6));
+  const JobContext job = session.job(0.6, request.pictures.empty() ? 1 : 0.9);
   std::vector<MotifCandidate> candidates;
-  if (people.texture.alphabet.motifs.empty() || !are_default(options)) {
-    MotifReport report = find_footage_motifs(people.texture, options, session.job(0.6, pictures.empty() ? 1 : 0.9));
+  std::vector<PaperSearch> searches;
+  if (request.paper) {
+    PaperMotifReport report = find_paper_motifs(people.texture, request.options, job);
+    people.texture.alphabet = std::move(report.set);
+    candidates = std::move(report.candidates);
+    searches = std::move(report.searches);
+    say_searches(searches, session);
+  } else if (people.texture.alphabet.motifs.empty() || !are_default(request.options)) {
+    MotifReport report = find_footage_motifs(people.texture, request.options, job);
     people.texture.alphabet = std::move(report.set);
     candidates = std::move(report.candidates);
   }
   const PeopleTexture& texture = people.texture;
-  if (!pictures.empty() && texture.alphabet.motifs.empty()) {
-    session.warn("nothing repeats, so " + enumerate(pictures) + " is not written");
-  } else if (!pictures.empty()) {
-    const Drawing drawing = draw_motif_page(texture, *people.pictures);
-    for (const std::string& picture : pictures) write_picture(picture, drawing);
-    session.say("wrote " + enumerate(pictures));
+  if (!request.pictures.empty() && texture.alphabet.motifs.empty() && searches.empty()) {
+    session.warn("nothing repeats, so " + enumerate(request.pictures) + " is not written");
+  } else if (!request.pictures.empty()) {
+    const Drawing drawing = picture_of(people, searches);
+    for (const std::string& picture : request.pictures) write_picture(picture, drawing);
+    session.say("wrote " + enumerate(request.pictures));
   }
   Value object;
   object["input"] = path;
@@ -92,8 +69,9 @@ void FootageMotifs::run(const std::string& path, const FindMotifsOptions& option
   object["motifs"] = motifs_value(texture.alphabet);
   object["idle"] = spans_value(texture.alphabet.idle);
   object["candidates"] = candidates_value(candidates);
-  object["options"] = options_value(options);
-  session.result(object, text_of(texture, candidates));
+  if (request.paper) object["searches"] = searches_value(searches);
+  object["options"] = options_value(request.options);
+  session.result(object, alphabet_text(texture.alphabet, candidates, texture.frames_per_sec));
 }
 
 }  // namespace motex::cli

@@ -5,23 +5,26 @@
 #include <string>
 #include <vector>
 
-#include "arguments.h"
 #include "motex/people/motifs.h"
 #include "people_source.h"
 #include "session.h"
 
 namespace motex::cli {
 
+/// What is asked of `people motifs`.
+struct MotifRequest {
+  FindMotifsOptions options;
+  std::vector<std::string> pictures;
+  bool paper = false;
+};
+
 /// The part of `people motifs` that goes with VIDEO|MODEL.
 struct FootageMotifs {
   PeopleSourceArguments source;
-  std::vector<std::string> pictures;
 
-  void declare(Arguments& arguments);
-  /// Whether one of its own arguments was given, which have no meaning for a series.
-  bool is_asked_for() const { return !pictures.empty(); }
-  /// A model shows the alphabet that it was learned with, unless options ask for another search.
-  void run(const std::string& path, const FindMotifsOptions& options, Session& session);
+  /// request.options are in range. A model shows the alphabet that it was learned with, unless options ask for another
+  /// search.
+  void run(const std::string& path, const MotifRequest& request, Session& session);
 };
 
 /// Whether the input of `people motifs` is a table of numbers.

@@ -21,7 +21,7 @@ def scene():
                      "--spill", "0")
         if result.returncode != 0:
             raise RuntimeError(result.stderr)
-        return (folder / "scene.mp4").read_bytes(), list(csv.DictReader((folder / "actions.csv").open()))
+        return (folder / "scene.mp4").read_bytes(), list(csv.DictReader((folder / "actions.csv").read_text().splitlines()))
 
 
 class Footage(CommandTest):
@@ -34,7 +34,7 @@ class Footage(CommandTest):
     def test_signals_are_a_table_and_a_plot(self):
         table, plot = self.folder / "s.csv", self.folder / "s.svg"
         report = self.one_json_object("people", "signals", self.film, "-o", table, "-o", plot, "--show", "aspect,mu30")
-        rows = list(csv.DictReader(table.open()))
+        rows = list(csv.DictReader(table.read_text().splitlines()))
         self.assertEqual(report["frames"], 500)
         self.assertEqual(len(rows), 500)
         self.assertEqual([row["frame"] for row in rows[:3]], ["0", "1", "2"])
@@ -57,6 +57,29 @@ class Footage(CommandTest):
                 self.assertGreaterEqual(start, 0)
                 self.assertLessEqual(start + length, report["frames"])
 
+    def test_the_papers_search_of_a_video(self):
+        picture = self.folder / "m.svg"
+        report = self.one_json_object("people", "motifs", self.film, "--paper", "--picture", picture)
+        self.assertEqual([search["window"] for search in report["searches"]], [40, 80, 160])
+        for search in report["searches"]:
+            self.assertGreaterEqual(search["distance_found"], search["distance_exact"] - 1e-9)
+            self.assertAlmostEqual(search["found_over_exact"], search["distance_found"] / search["distance_exact"], 6)
+        self.assertIn("40 frames, iteration 100", picture.read_text())
+
+    def test_a_series_draws_its_motifs_and_collisions(self):
+        table, picture = self.folder / "s.csv", self.folder / "p.svg"
+        self.succeed("people", "signals", self.film, "-o", table)
+        words = ("people", "motifs", table, "--column", "aspect", "--window", 24)
+        report = self.one_json_object(*words, "--paper", "--picture", picture)
+        self.assertEqual(report["signal"], "aspect")
+        self.assertLessEqual(report["searches"][0]["found_over_exact"], 1.05)
+        self.assertIn("24 frames, iteration 25", picture.read_text())
+        for motif in report["motifs"]:
+            self.assertEqual(motif["count"], len(motif["starts"]))
+        self.fail_with(2, *words, "--picture", picture, saying="--force")
+        self.succeed(*words, "--picture", picture, "--force")
+        self.assertNotIn("iteration", picture.read_text())
+
     def test_bad_requests(self):
         table = self.folder / "s.csv"
         for words, saying in [
@@ -66,6 +89,7 @@ class Footage(CommandTest):
             (("people", "signals", self.film, "-o", table, "--smooth-secs", "9"), "smooth"),
             (("people", "motifs", self.film, "--profile", self.folder / "p.csv"), "SERIES"),
             (("people", "motifs", self.film, "--picture", self.folder / "m.bmp"), "bmp"),
+            (("people", "motifs", self.film, "--paper", "--window", "300"), "too short for two windows of 300 frames"),
         ]:
             self.fail_with(2, *words, saying=saying)
         table.write_text("kept")

@@ -114,7 +114,8 @@ std::string decimals(double value) {
   return text;
 }
 
-/// The most matches first; each more than 2R from all before.
+/// The most matches first; each more than 2R from all before, and sharing at most half of its frames with what they
+/// hold.
 Choice best_motifs(const SeriesWindows& windows, const std::vector<int>& starts, double radius, int max_motifs) {
   std::vector<Exemplar> all;
   for (const int start : starts) all.push_back(with_matches(windows, start, radius));
@@ -128,12 +129,19 @@ Choice best_motifs(const SeriesWindows& windows, const std::vector<int>& starts,
       return std::abs(motif.exemplar - exemplar.start) < windows.window ||
              windows.distance(motif.exemplar, exemplar.start) / root <= 2 * radius;
     });
+    const auto holder = std::find_if(out.motifs.begin(), out.motifs.end(), [&](const Motif& motif) {
+      return std::any_of(motif.occurrences.begin(), motif.occurrences.end(), [&](const Occurrence& occurrence) {
+        return std::abs(occurrence.start - exemplar.start) < windows.window / 2;
+      });
+    });
     std::string reason;
     if (exemplar.matches.size() < 2)
       reason = "too few: the nearest window lies at " + decimals(exemplar.nearest) + ", R is " + decimals(radius);
     else if (known != out.motifs.end())
       reason = "within 2R of the motif at frame " + std::to_string(known->exemplar) + ": it lies at " +
                decimals(windows.distance(known->exemplar, exemplar.start) / root) + ", 2R is " + decimals(2 * radius);
+    else if (holder != out.motifs.end())
+      reason = "overlaps an occurrence of the motif at frame " + std::to_string(holder->exemplar);
     else if (static_cast<int>(out.motifs.size()) == max_motifs)
       reason = "more than K = " + std::to_string(max_motifs) + ": those found occur at least as often";
     if (reason.empty())

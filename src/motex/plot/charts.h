@@ -49,6 +49,7 @@ struct HeatMap {
   Matrix values;
   std::optional<double> min, max;  ///< values of the ends of the colour scale; default: the smallest and largest
   PlotSize size;
+  double units_per_cell = 1;  ///< of both axes, whose numbers are units from 0
 };
 
 /// A stretch of time in the colour of its unit.

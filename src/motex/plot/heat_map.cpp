@@ -59,12 +59,14 @@ void draw_colour_bar(Drawing& drawing, const Frame& frame, const std::string& la
 Drawing draw(const HeatMap& map) {
   if (map.values.size() == 0) throw InvalidInput("the heat map '" + map.title + "' has no values");
   const auto [low, high] = value_range(map);
-  const auto rows = static_cast<double>(map.values.rows()), cols = static_cast<double>(map.values.cols());
+  const double unit = map.units_per_cell;
+  const double rows = unit * static_cast<double>(map.values.rows()),
+               cols = unit * static_cast<double>(map.values.cols());
   Scale x = make_scale({"", false, 0, cols}, 0, cols, static_cast<int>(map.size.width / 75));
   Scale y = make_scale({"", false, 0, rows}, 0, rows, static_cast<int>(map.size.height / 55));
-  const auto keep_cells = [](Scale& scale, double count) {  // whole cells only, marked at their middle
+  const auto keep_cells = [unit](Scale& scale, double count) {  // whole cells only, marked at their middle
     std::erase_if(scale.ticks, [&](const Tick& t) { return t.value != std::floor(t.value) || t.value >= count; });
-    for (Tick& tick : scale.ticks) tick.value += 0.5;
+    for (Tick& tick : scale.ticks) tick.value += unit / 2;
   };
   keep_cells(x, cols);
   keep_cells(y, rows);

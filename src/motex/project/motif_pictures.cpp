@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 
 #include "motex/core/error.h"
-#include "motex/people/signals.h"
 #include "motex/plot/charts.h"
 #include "motex/plot/colour.h"
 
@@ -18,8 +18,11 @@ namespace {
 
 constexpr Rgba kInk{40, 40, 40, 255};
 
-void need_motifs(const PeopleTexture& texture) {
-  if (texture.alphabet.motifs.empty()) throw InvalidInput("no action repeats in the footage: there is nothing to draw");
+constexpr double kCollisionCells = 150;  // across a picture
+constexpr double kBrightest = 0.5;       // of the most collisions: the scale ends there
+
+void need_motifs(const MotifSet& alphabet) {
+  if (alphabet.motifs.empty()) throw InvalidInput("nothing repeats: there is nothing to draw");
 }
 
 const Occurrence& exemplar_of(const Motif& motif) {
@@ -108,38 +111,31 @@ Drawing heading(const std::string& text) {
   return line;
 }
 
-}  // namespace
-
-Drawing draw_collisions(const std::vector<CollisionPicture>& pictures) {
-  std::vector<Drawing> panels;
-  for (const CollisionPicture& picture : pictures) {
-    HeatMap map;
-    map.title = "iteration " + std::to_string(picture.iteration);
-    map.x_label = map.y_label = "window";
-    map.value_label = "collisions";
-    map.values = picture.counts;
-    map.size = {420, 400};
-    panels.push_back(draw(map));
+/// The most collisions of each square of windows, both triangles.
+Matrix pooled(const CollisionMatrix& matrix, int num_windows, int side) {
+  const Index cells = (num_windows + side - 1) / side;
+  Matrix out = Matrix::Zero(cells, cells);
+  for (const Collision& collision : matrix.cells) {
+    double& cell = out(collision.row / side, collision.column / side);
+    cell = std::max(cell, static_cast<double>(collision.count));
   }
-  return grid(panels, static_cast<int>(std::min<std::size_t>(3, panels.size())), "");
+  return out.cwiseMax(out.transpose().eval());
 }
 
-Drawing draw_motif_matches(const PeopleTexture& texture, int most) {
-  need_motifs(texture);
-  const PeopleSignals signals = measure_signals(texture);
-  const std::vector<double>& aspect = signal_named(signals, "aspect").values;
+Drawing matches_of(const MotifSet& alphabet, const Signal& signal, const std::function<std::string(int)>& place,
+                   int most) {
   std::vector<Drawing> panels;
-  for (const Motif& motif : texture.alphabet.motifs) {
+  for (const Motif& motif : alphabet.motifs) {
     if (static_cast<int>(panels.size()) == most) break;
     LinePlot plot;
     plot.title = title_of(motif);
-    plot.x_axis.label = "frame of the action", plot.y_axis.label = "width / height";
+    plot.x_axis.label = "frame of the action", plot.y_axis.label = signal.name;
     plot.size = {360, 230};
     for (const Occurrence* one : {&exemplar_of(motif), &closest_of(motif)}) {
-      Series series{"from " + place_of(texture, one->start), {}, {}, Mark::kLine, {}};
+      Series series{"from " + place(one->start), {}, {}, Mark::kLine, {}};
       for (int t = 0; t < one->length; ++t) {
         series.x.push_back(t);
-        series.y.push_back(aspect[static_cast<std::size_t>(one->start + t)]);
+        series.y.push_back(signal.values[static_cast<std::size_t>(one->start + t)]);
       }
       plot.series.push_back(std::move(series));
     }
@@ -148,8 +144,42 @@ Drawing draw_motif_matches(const PeopleTexture& texture, int most) {
   return grid(panels, static_cast<int>(std::min<std::size_t>(3, panels.size())), "");
 }
 
+}  // namespace
+
+Drawing draw_collisions(const std::vector<PaperSearch>& searches) {
+  if (searches.empty()) throw InvalidInput("no collision matrix: there is nothing to draw");
+  std::vector<Drawing> panels;
+  for (const PaperSearch& search : searches)
+    for (const CollisionMatrix& matrix : search.found.collisions) {
+      HeatMap map;
+      map.title = std::to_string(search.window) + " frames, iteration " + std::to_string(matrix.iteration);
+      map.x_label = map.y_label = "first frame of the window";
+      map.value_label = "collisions";
+      map.units_per_cell = std::max(1.0, std::ceil(static_cast<double>(search.num_windows) / kCollisionCells));
+      map.values = pooled(matrix, search.num_windows, static_cast<int>(map.units_per_cell));
+      map.min = 0, map.max = std::max(1.0, kBrightest * map.values.maxCoeff());
+      map.size = {420, 400};
+      panels.push_back(draw(map));
+    }
+  return grid(panels, static_cast<int>(searches[0].found.collisions.size()), "");
+}
+
+Drawing draw_motif_matches(const PeopleTexture& texture, int most) {
+  need_motifs(texture.alphabet);
+  Signal aspect = signal_named(measure_signals(texture), "aspect");
+  aspect.name = "width / height";
+  return matches_of(
+      texture.alphabet, aspect, [&](int frame) { return place_of(texture, frame); }, most);
+}
+
+Drawing draw_motif_matches(const MotifSet& alphabet, const Signal& signal, int most) {
+  need_motifs(alphabet);
+  return matches_of(
+      alphabet, signal, [](int frame) { return "frame " + std::to_string(frame); }, most);
+}
+
 Drawing draw_filmstrips(const PeopleTexture& texture, FramePictures& pictures, int most, int rows, int columns) {
-  need_motifs(texture);
+  need_motifs(texture.alphabet);
   constexpr double kHeight = 110;
   std::vector<Drawing> lines;
   for (int k = 0; k < std::min(most, static_cast<int>(texture.alphabet.motifs.size())); ++k) {
@@ -168,7 +198,7 @@ Drawing draw_filmstrips(const PeopleTexture& texture, FramePictures& pictures, i
 }
 
 Drawing draw_alphabet(const PeopleTexture& texture, FramePictures& pictures) {
-  need_motifs(texture);
+  need_motifs(texture.alphabet);
   constexpr double kHeight = 130, kWidth = 170;
   std::vector<Drawing> cards;
   for (const Motif& motif : texture.alphabet.motifs) {
@@ -199,10 +229,25 @@ Drawing draw_alphabet(const PeopleTexture& texture, FramePictures& pictures) {
   return grid(cards, static_cast<int>(std::min<std::size_t>(6, cards.size())), "");
 }
 
-Drawing draw_motif_page(const PeopleTexture& texture, FramePictures& pictures) {
-  return stacked({heading("Actions"), draw_alphabet(texture, pictures), heading("Two performances of each"),
-                  draw_motif_matches(texture), draw_filmstrips(texture, pictures)},
-                 12);
+Drawing draw_motif_page(const PeopleTexture& texture, FramePictures& pictures,
+                        const std::vector<PaperSearch>& searches) {
+  std::vector<Drawing> parts;
+  if (!searches.empty()) parts = {heading("Collision matrix"), draw_collisions(searches)};
+  for (Drawing& part :
+       std::vector<Drawing>{heading("Actions"), draw_alphabet(texture, pictures), heading("Two performances of each"),
+                            draw_motif_matches(texture), draw_filmstrips(texture, pictures)})
+    parts.push_back(std::move(part));
+  return stacked(parts, 12);
+}
+
+Drawing draw_series_page(const MotifSet& alphabet, const Signal& signal, const std::vector<PaperSearch>& searches) {
+  std::vector<Drawing> parts;
+  if (!searches.empty()) parts = {heading("Collision matrix"), draw_collisions(searches)};
+  if (searches.empty() || !alphabet.motifs.empty()) {
+    parts.push_back(heading("Two occurrences of each motif"));
+    parts.push_back(draw_motif_matches(alphabet, signal));
+  }
+  return stacked(parts, 12);
 }
 
 }  // namespace motex
