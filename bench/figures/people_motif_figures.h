@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Figures 1, 3 and 4 of [PT04], for people_figures.cpp.
+// Figures 1 to 4 of [PT04], for people_figures.cpp.
 
 #include <cstdio>
 #include <filesystem>
@@ -12,6 +12,7 @@
 #include "motex/image/planes.h"
 #include "motex/people/footage_motifs.h"
 #include "motex/people/measure_silhouette.h"
+#include "motex/people/paper_motifs.h"
 #include "motex/plot/drawing.h"
 #include "motex/project/keyed_footage.h"
 #include "motex/project/load_people.h"
@@ -62,8 +63,8 @@ class SimulatedPictures : public FramePictures {
   const ActorSimulation& scene_;
 };
 
-/// Figure 1 of the dancer; 3 and 4 of a puppet that motion capture moves, since the clips that may be shown repeat no
-/// action. Figure 2 needs the collision matrices of the paper's random projection.
+/// Figure 1 of the dancer; 2, 3 and 4 of a puppet that motion capture moves, since the clips that may be shown repeat
+/// no action; 2 as the paper searches: random projection of the aspect ratio.
 inline void draw_motif_figures(const std::string& clips, const std::filesystem::path& folder) {
   draw_stages(clips + "/dancer1_fullbody_green_640x360.mp4", 290, folder / "people_textures_1.png");
   SimulateActorOptions options;
@@ -72,6 +73,12 @@ inline void draw_motif_figures(const std::string& clips, const std::filesystem::
   options.seed = 3;
   const ActorSimulation scene(options);
   PeopleTexture texture = texture_of(scene, options);
+  FindMotifsOptions paper;
+  paper.window = 40;
+  const PaperMotifReport found = find_paper_motifs(texture, paper);
+  std::printf("figure 2: %zu cells, closest pair %.3f times the exact\n",
+              found.searches[0].found.collisions.back().cells.size(), found.searches[0].matrix_over_exact());
+  write_picture(folder / "people_textures_2.png", draw_collisions(found.searches));
   texture.alphabet = find_footage_motifs(texture).set;
   std::printf("figures 3 and 4: %zu actions\n", texture.alphabet.motifs.size());
   if (texture.alphabet.motifs.empty()) return;
