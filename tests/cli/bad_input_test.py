@@ -179,6 +179,78 @@ class BadParticles(CommandTest):
         self.fail_with(2, "particles", "tracks", model, "-o", self.folder / "x.xyz", saying="xyz")
 
 
+class BadPeople(CommandTest):
+    """Every command of people that takes a model or a video."""
+
+    def of_model(self, model):
+        out = self.folder / "out"
+        return [
+            ("info", model),
+            ("name", model, "A", "bow"),
+            ("signals", model, "-o", f"{out}.csv"),
+            ("motifs", model, "--picture", f"{out}.png"),
+            ("direct", model, "--script", "A", "-o", f"{out}.mkv"),
+            ("play", model, "--secs", 1, "-o", f"{out}.mkv"),
+            ("crowd", model, "--secs", 1, "-o", f"{out}.mkv"),
+            ("export", model, "-o", out),
+        ]
+
+    def of_video(self, video):
+        out = self.folder / "out"
+        return [
+            ("key", video, "-o", f"{out}.mkv"),
+            ("signals", video, "-o", f"{out}.csv"),
+            ("motifs", video, "--picture", f"{out}.png"),
+            ("motifs", video, "--paper"),
+            ("learn", video, "-o", f"{out}.motex"),
+        ]
+
+    def test_models(self):
+        snow = self.snow_model().read_bytes()
+        bad = self.folder / "bad.motex"
+        for contents in [b"", snow[:9], b"hello\n", bytes(4096), snow]:
+            bad.write_bytes(contents)
+            for words in self.of_model(bad):
+                self.fail_with(2, "people", *words, saying=r"bad\.motex")
+        for words in self.of_model(self.folder / "none.motex"):
+            self.fail_with(2, "people", *words, saying=r"none\.motex")
+
+    def test_videos(self):
+        bad = self.folder / "bad.mp4"
+        for contents, saying in [(b"", "empty"), (b"no video\n", "text file"), (bytes(4096), r"bad\.mp4"), (None, r"bad\.mp4")]:
+            if contents is None:
+                bad.unlink()
+            else:
+                bad.write_bytes(contents)
+            for words in self.of_video(bad):
+                self.fail_with(2, "people", *words, saying=saying)
+
+    def test_footage_that_shows_nobody_or_too_little(self):
+        empty, short = self.folder / "empty.mkv", self.folder / "short"
+        self.succeed("particles", "synthesize", self.snow_model(), "-o", empty, "--frames", 20, "--rate", 0)
+        self.succeed("people", "simulate", "-o", short, "--frames", 3, "--size", "96x64")
+        for words in self.of_video(empty):
+            self.fail_with(2, "people", *words, saying="nobody|person|frames")
+        for words in self.of_video(short / "scene.mp4")[-2:]:
+            self.fail_with(2, "people", *words, saying="3 frames|too short")
+
+    def test_series(self):
+        table = self.folder / "s.csv"
+        table.write_text("aspect\n" + "".join(f"{k * k % 17}\n" for k in range(100)))
+        for words, saying in [
+            (("--window", 60), "60"),
+            (("--window", 3), "window"),
+            (("--paper", "--window", 60), r"s\.csv: too short for two windows of 60 frames"),
+            (("--column", "area"), "no column 'area', only aspect"),
+            (("--picture", self.folder / "p.bmp"), "bmp"),
+            (("--profile", self.folder / "p.png"), "png"),
+            (("--fps", 0), "fps"),
+        ]:
+            self.fail_with(2, "people", "motifs", table, *words, saying=saying)
+        table.write_text("aspect\n1\ntwo\n")
+        self.fail_with(2, "people", "motifs", table, saying=r"s\.csv:3: 'two' is no number")
+
+
 class BadTargets(CommandTest):
     def synthesize_fails(self, code, target, *more, saying=".", **options):
         arguments = ("motion", "synthesize", self.model(), "-o", target, "--secs", 20, *more)
