@@ -136,9 +136,6 @@ ElementLooks ElementLooks::replay(const Cable& cable, int width, int height) {
                                           [&](const Base& a, const Base& b) { return depth(a) < depth(b); });
     looks.first_ = looks.last_ = static_cast<std::size_t>(deepest - cable.core.begin());
   }
-  for (std::size_t k = looks.first_; k <= looks.last_; ++k)
-    for (const float coefficient : cable.core[k].coefficients)
-      looks.strongest_ = std::max(looks.strongest_, std::abs(coefficient));
   const std::size_t middle = (looks.first_ + looks.last_) / 2;
   std::vector<Base> bases{cable.core[middle]};
   for (const std::vector<Base>& coil : cable.coils) bases.push_back(coil[middle]);
@@ -193,11 +190,7 @@ void ElementLooks::append(double x, double y, double scale, double angle, double
       bases.back().y += y - core.y;
     };
     append_moved(core);
-    for (const std::vector<Base>& coil : cable_->coils) {
-      append_moved(coil[frame]);
-      for (float& coefficient : bases.back().coefficients)
-        coefficient = std::clamp(coefficient, -strongest_, strongest_);
-    }
+    for (const std::vector<Base>& coil : cable_->coils) append_moved(coil[frame]);
   }
   if (strength < 1)
     for (std::size_t k = first; k < bases.size(); ++k) fade(bases[k], strength);

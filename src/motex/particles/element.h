@@ -69,8 +69,7 @@ class ElementLooks {
  public:
   ElementLooks() = default;
   /// Core and coils of that cable again; where it is too short, forwards and backwards in turn. Frames in which it was
-  /// at the border of its picture (width × height), where bases are not well determined, are left out; so is of a coil
-  /// what would outshine the core.
+  /// at the border of its picture (width × height), where bases are not well determined, are left out.
   static ElementLooks replay(const Cable& cable, int width, int height);
   /// A moveton drawn from the template. The template must outlive it.
   static ElementLooks sampled(const MovetonTemplate& of, int num_planes, Rng& rng);
@@ -92,7 +91,6 @@ class ElementLooks {
 
   const Cable* cable_ = nullptr;
   std::size_t first_ = 0, last_ = 0;  // frames of the cable that are shown: those well inside its picture
-  float strongest_ = 0;               // coefficient of its core
   std::optional<SampledMoveton> moveton_;
   double reach_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "motex/particles/fit_dynamics.h"
+#include "motex/particles/stray_light.h"
 
 namespace motex {
 namespace {
@@ -60,6 +61,7 @@ CableSynthesizer::Population::Population(const TexturedMotion& model, const Synt
       const bool fits = options_.looks_of_species < 0 || cable.species == options_.looks_of_species;
       if (fits && !cable.core.empty()) looks_cables_.push_back(static_cast<int>(k));
     }
+  has_stray_light_ = find_stray_light(looks_model_);
   report_.learned_per_frame = learned_per_frame(true);
   report_.deaths_by_age = deaths_.by_age;
 }

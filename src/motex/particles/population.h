@@ -58,6 +58,7 @@ class CableSynthesizer::Population {
   void start_looks(Element& element, int cable);
   void back_out(Element& element, int side);
   void choose_looks(Element& element, int cable, int species);
+  int presentable(int cable, Rng& rng) const;
   std::size_t law_idx(int species) const;
   void learn_noise();
   void choose_paths();
@@ -82,6 +83,7 @@ class CableSynthesizer::Population {
   std::vector<MovetonDynamics> laws_;           // one a species, the last for free bases
   std::vector<NoiseSpread> noise_x_, noise_y_;  // one a law
   std::vector<int> looks_cables_;               // whose bases may be replayed where the looks are not the cable's own
+  std::vector<char> has_stray_light_;           // of looks_model_: cables that are not replayed
   std::map<int, Series> series_;
   MotionEdit motion_;
   bool draws_looks_ = true;

@@ -45,11 +45,30 @@ void CableSynthesizer::Population::choose_looks(Element& element, int cable, int
   element.species = species;
   const bool has_template = species >= 0 && static_cast<std::size_t>(species) < looks_model_.templates.size();
   if (options_.appearance == ParticleAppearance::kReplay || !has_template) {
-    element.looks = ElementLooks::replay(source, looks_model_.width, looks_model_.height);
+    const Cable& shown = looks_model_.cables[static_cast<std::size_t>(presentable(cable, element.looks_rng))];
+    element.looks = ElementLooks::replay(shown, looks_model_.width, looks_model_.height);
     return;
   }
   element.looks = ElementLooks::sampled(looks_model_.templates[static_cast<std::size_t>(species)],
                                         looks_model_.num_planes, element.looks_rng);
+}
+
+/// The cable, or instead of one with stray light another of its species without, those that were seen long first.
+int CableSynthesizer::Population::presentable(int cable, Rng& rng) const {
+  const auto idx = static_cast<std::size_t>(cable);
+  if (has_stray_light_[idx] == 0) return cable;
+  const auto weight_of = [&](std::size_t k) {
+    const bool fits = has_stray_light_[k] == 0 && looks_model_.cables[k].species == looks_model_.cables[idx].species;
+    return fits ? static_cast<double>(looks_model_.cables[k].core.size()) : 0;
+  };
+  double total = 0;
+  for (std::size_t k = 0; k < has_stray_light_.size(); ++k) total += weight_of(k);
+  double wanted = rng.uniform() * total;
+  for (std::size_t k = 0; k < has_stray_light_.size() && total > 0; ++k) {
+    wanted -= weight_of(k);
+    if (wanted < 0) return static_cast<int>(k);
+  }
+  return cable;
 }
 
 void CableSynthesizer::Population::add(const ElementBirth& birth) {
