@@ -82,6 +82,75 @@ TEST_F(KeyVideo, ThreeFramesBeforeAScreenAreEnough) {
   EXPECT_EQ(key_video(write_clip("three.mkv", 3), {}, nullptr, {folder_ / "keyed.mkv"}).footage.num_frames, 3);
 }
 
+/// Frames of a red block that moves before a colour; the folder's clip gets all shots one after another.
+struct Shot {
+  Rgba screen;
+  int count = 0;
+  bool restless = false;  // nothing in it stays as it is
+};
+
+fs::path write_shots(const fs::path& path, const std::vector<Shot>& shots) {
+  VideoWriter writer(path, 95, 71);
+  int t = 0;
+  for (const Shot& shot : shots) {
+    for (int k = 0; k < shot.count; ++k, ++t) {
+      Image image(95, 71, shot.screen);
+      for (int y = 0; shot.restless && y < 71; ++y)
+        for (int x = 0; x < 95; ++x) {
+          const auto hash = static_cast<std::uint32_t>((x + 5 * k) / 6 * 7919 + y / 6 * 104729) * 2654435761U;
+          image.at(x, y) = {static_cast<std::uint8_t>(hash >> 24U), static_cast<std::uint8_t>(hash >> 16U),
+                            static_cast<std::uint8_t>(hash >> 8U), 255};
+        }
+      const int left = 35 + static_cast<int>(18 * std::sin(0.6 * t));
+      for (int y = 20; y < 60; ++y)
+        for (int x = left; x < left + 20; ++x) image.at(x, y) = {180, 40, 60, 255};
+      writer.write(image);
+    }
+  }
+  writer.finish();
+  return path;
+}
+
+constexpr Rgba kGreen{40, 180, 60, 255}, kBlue{40, 70, 190, 255};
+
+TEST_F(KeyVideo, EveryShotIsKeyedByItsOwnBackground) {
+  const fs::path clip = write_shots(folder_ / "cut.mkv", {{kGreen, 20}, {kBlue, 20}, {kGreen, 20}});
+  KeyedFootage footage(clip);
+  ASSERT_EQ(footage.shots().shots.size(), 3U);
+  int count = 0;
+  for (KeyedFrame frame; footage.next(frame); ++count) {
+    EXPECT_EQ(frame.idx, count);
+    EXPECT_EQ(frame.shot, count / 20);
+    EXPECT_EQ(frame.sprite.left, 35 + static_cast<int>(18 * std::sin(0.6 * count)));
+    EXPECT_EQ(frame.sprite.width, 20);
+    EXPECT_EQ(frame.sprite.top, 20);
+  }
+  EXPECT_EQ(count, 60);
+  EXPECT_EQ(footage.plate()->kind, ScreenKind::kGreen);
+}
+
+TEST_F(KeyVideo, AShotThatCannotBeKeyedIsSaidAndEmpty) {
+  const fs::path clip = write_shots(folder_ / "cut.mkv", {{kGreen, 20}, {kBlue, 20, true}});
+  std::string warnings;
+  JobContext job;
+  job.on_warning = [&](const std::string& warning) { warnings += warning; };
+  KeyedFootage footage(clip, {}, job);
+  int count = 0;
+  for (KeyedFrame frame; footage.next(frame); ++count) EXPECT_EQ(frame.sprite.empty(), frame.idx >= 20) << frame.idx;
+  EXPECT_EQ(count, 40);
+  EXPECT_NE(warnings.find("frames 20 to 39"), std::string::npos) << warnings;
+  EXPECT_THROW(KeyedFootage(write_shots(folder_ / "moving.mkv", {{kBlue, 20, true}})), InvalidInput);
+}
+
+TEST_F(KeyVideo, APartOfTheVideoAlone) {
+  KeyFootageOptions options;
+  options.frames = {7, 9};
+  KeyedFootage footage(write_clip("take.mkv", 24), options);
+  int count = 0;
+  for (KeyedFrame frame; footage.next(frame); ++count) EXPECT_EQ(frame.idx, 7 + count);
+  EXPECT_EQ(count, 9);
+}
+
 TEST_F(KeyVideo, TheNumberOfThreadsDoesNotMatter) {
   const fs::path clip = write_clip("take.mkv", 12);
   JobContext one, three;

@@ -197,7 +197,7 @@ TEST_F(VideoIo, SeekingGivesTheSameFrameAsReading) {
     const std::vector<VideoFrame> in_order = read(path);
     VideoReader reader(path);
     VideoFrame frame;
-    for (const int idx : {39, 0, 17, 18, 3}) {
+    for (const int idx : {39, 0, 17, 18, 25, 25, 39, 3, 5}) {
       reader.seek(idx);
       ASSERT_TRUE(reader.next(frame)) << name;
       EXPECT_EQ(frame.idx, idx) << name;
@@ -205,6 +205,30 @@ TEST_F(VideoIo, SeekingGivesTheSameFrameAsReading) {
     }
     reader.seek(40);
     EXPECT_FALSE(reader.next(frame)) << name;
+  }
+}
+
+TEST_F(VideoIo, PreviewsAreMeansOfTheFrame) {
+  const std::vector<Image> frames = moving_disc(3, 96, 64);
+  for (const char* name : {"x.mkv", "pictures"}) {
+    VideoReader reader(write(name, frames));
+    VideoFrame frame;
+    Image preview;
+    ASSERT_TRUE(reader.advance());
+    ASSERT_TRUE(reader.advance());
+    reader.read_preview(preview, 24, 16);
+    reader.read(frame);
+    EXPECT_EQ(frame.idx, 1) << name;
+    EXPECT_EQ(frame.image.width, 96) << name;
+    const auto mean_green = [](const Image& image) {
+      double sum = 0;
+      for (const Rgba& pixel : image.pixels) sum += pixel.g;
+      return sum / static_cast<double>(image.pixels.size());
+    };
+    EXPECT_NEAR(mean_green(preview), mean_green(frames[1]), 1) << name;
+    EXPECT_TRUE(preview.width == 96 || preview.width == 24) << name;
+    ASSERT_TRUE(reader.next(frame));
+    EXPECT_EQ(frame.idx, 2) << name;
   }
 }
 
