@@ -28,6 +28,7 @@ Value searches_value(const std::vector<PaperSearch>& searches) {
     one["found_over_exact"] = search.matrix_over_exact();
     one["searched_over_exact"] = search.closest_over_exact();
     one["radius"] = search.found.radius;
+    one["alphabet"] = search.found.alphabet;
     one["compared"] = search.found.num_compared;
     one["collisions"] = static_cast<std::int64_t>(search.found.collisions.back().cells.size());
     list.append(std::move(one));

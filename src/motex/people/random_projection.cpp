@@ -18,6 +18,7 @@
 namespace motex {
 namespace {
 
+constexpr int kLargestAlphabet = 16, kSmallestAlphabet = 4;
 constexpr std::size_t kFewestCompared = 1000, kMostCompared = 20000, kSearchedAround = 20;
 constexpr std::size_t kExemplars = 300, kMostCandidates = 10;
 
@@ -201,9 +202,14 @@ RandomProjectionReport random_projection_motifs(const SeriesWindows& windows, co
   if (windows.num_signals != 1) throw InvalidInput("random projection takes one signal: choose one");
   const int word_length = std::min(options.word_length, windows.window);
   const int mask_size = std::min({options.mask_size, word_length - 1, 12});
-  const SaxWords words = sax_words(windows, word_length, options.alphabet);
   RandomProjectionReport report;
-  report.collisions = count_collisions(windows, words, mask_size, options.iterations, options.seed, job);
+  SaxWords words;
+  for (report.alphabet = options.alphabet > 0 ? options.alphabet : kLargestAlphabet;; report.alphabet /= 2) {
+    words = sax_words(windows, word_length, report.alphabet);
+    report.collisions = count_collisions(windows, words, mask_size, options.iterations, options.seed, job);
+    const bool is_enough = report.collisions.back().cells.size() >= kFewestCompared;
+    if (options.alphabet > 0 || is_enough || report.alphabet <= kSmallestAlphabet) break;
+  }
   const CollisionMatrix& all = report.collisions.back();
   find_closest(windows, ranked_cells(all, windows, words, kMostCompared), report);
   report.radius = options.radius > 0 ? options.radius : 2 * report.closest.distance;

@@ -15,7 +15,7 @@ namespace motex {
 
 struct RandomProjectionOptions {
   int word_length = 32;
-  int alphabet = 16;
+  int alphabet = 0;
   int mask_size = 6;
   int iterations = 100;
   double radius = 0;
@@ -25,7 +25,9 @@ struct RandomProjectionOptions {
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"word_length", "letters", "of a window's word"}, self.word_length, Range{2, 64});
-    visit(Field{"alphabet", "letters", "to choose from"}, self.alphabet, Range{2, 20});
+    visit(Field{"alphabet", "letters",
+                "to choose from; auto = 16, halved down to 4 as long as fewer than 1,000 pairs of windows collide"},
+          self.alphabet, Range{2, 20, true});
     visit(Field{"mask_size", "letters", "compared in an iteration"}, self.mask_size, Range{1, 12});
     visit(Field{"iterations", "", "of random projection"}, self.iterations, Range{1, 10000});
     visit(
@@ -49,6 +51,7 @@ struct RandomProjectionReport {
   WindowPair in_matrix;                     ///< the closest of the cells that collide most, as they stand
   WindowPair closest;                       ///< the closest around the closest of these
   double radius = 0;                        ///< R, / √window
+  int alphabet = 0;                         ///< letters
   int num_compared = 0;                     ///< pairs whose distance was computed to find the closest
 };
 

@@ -77,6 +77,17 @@ TEST(RandomProjection, TheMatrixHoldsAPairNextToTheClosest) {
   }
 }
 
+TEST(RandomProjection, FewerLettersWhereLittleCollides) {
+  const SeriesWindows few = series_windows(with_repetitions(3), 50);
+  const SeriesWindows many = series_windows(with_repetitions(3).replicate(4, 1), 50);
+  const RandomProjectionReport coarse = random_projection_motifs(few), fine = random_projection_motifs(many);
+  EXPECT_LT(coarse.alphabet, 16);
+  EXPECT_EQ(fine.alphabet, 16);
+  RandomProjectionOptions options;
+  options.alphabet = 16;
+  EXPECT_EQ(random_projection_motifs(few, options).alphabet, 16);
+}
+
 TEST(RandomProjection, SaysWhyAWindowIsNoMotif) {
   RandomProjectionOptions options;
   options.radius = 0.45;
