@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <numeric>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 
 namespace motex {
 namespace {
@@ -17,12 +17,6 @@ namespace {
 constexpr std::array<const char*, 4> kIdleWords{"idle", "stand", "rest", "pause"};
 constexpr int kMaxTimes = 10000;
 constexpr double kMaxSecs = 1e5;
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return out;
-}
 
 std::string trimmed_text(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -41,18 +35,18 @@ std::vector<std::string> split(std::string_view text, const char* separators) {
 }
 
 int find_motif(std::string_view word, const MotifSet& alphabet) {
-  const std::string wanted = lower(trimmed_text(word));
+  const std::string wanted = lowered(trimmed_text(word));
   const auto& motifs = alphabet.motifs;
   for (const bool by_name : {true, false})
     for (std::size_t k = 0; k < motifs.size(); ++k) {
       const std::string& own = by_name ? motifs[k].name : motifs[k].letter;
-      if (!own.empty() && lower(own) == wanted) return static_cast<int>(k);
+      if (!own.empty() && lowered(own) == wanted) return static_cast<int>(k);
     }
   return -1;
 }
 
 bool is_idle_word(const std::string& word) {
-  return std::any_of(kIdleWords.begin(), kIdleWords.end(), [&](const char* idle) { return lower(word) == idle; });
+  return std::any_of(kIdleWords.begin(), kIdleWords.end(), [&](const char* idle) { return lowered(word) == idle; });
 }
 
 /// Letters to insert, delete or replace.
@@ -76,7 +70,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::size_t fewest = std::max<std::size_t>(word.size() / 2, 1) + 1;
   const auto consider = [&](const std::string& name) {
     if (name.empty()) return;
-    const std::size_t errors = edit_distance(lower(word), lower(name));
+    const std::size_t errors = edit_distance(lowered(word), lowered(name));
     if (errors < fewest) fewest = errors, nearest = name;
   };
   for (const Motif& motif : alphabet.motifs) consider(motif.name), consider(motif.letter);
@@ -149,7 +143,7 @@ Direction parse_direction(std::string word, const MotifSet& alphabet) {
   Suffix::take(word, direction);
   direction.motif = find_motif(word, alphabet);
   if (direction.motif >= 0) return direction;
-  if (word == "*" || lower(word) == "any")
+  if (word == "*" || lowered(word) == "any")
     direction.kind = Direction::Kind::kAny;
   else if (is_idle_word(word) && !alphabet.idle.empty())
     direction.kind = Direction::Kind::kIdle;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include "motex/core/lowered.h"
+
 namespace motex {
 namespace {
 
@@ -17,14 +19,8 @@ constexpr double kHeadRadius = 0.057, kNeckRadius = 0.026, kShoulderRadius = 0.0
                  kThighRadius = 0.050, kKneeRadius = 0.033, kAnkleRadius = 0.022, kToeRadius = 0.017,
                  kHandTipRadius = 0.013, kFingerRadius = 0.007, kPlainRadius = 0.016;
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool names_one_of(const std::string& name, std::initializer_list<const char*> words) {
-  const std::string text = lower(name);
+  const std::string text = lowered(name);
   return std::any_of(words.begin(), words.end(), [&](const char* w) { return text.find(w) != std::string::npos; });
 }
 
@@ -202,7 +198,7 @@ void add_bones(const Skeleton& skeleton, const std::vector<Side>& sides, Figure&
 }  // namespace
 
 Side side_of_name(const std::string& full_name) {
-  const std::string name = full_name.substr(full_name.find_last_of(':') + 1), text = lower(name);
+  const std::string name = full_name.substr(full_name.find_last_of(':') + 1), text = lowered(name);
   if (text.find("left") != std::string::npos) return Side::kLeft;
   if (text.find("right") != std::string::npos) return Side::kRight;
   const std::size_t n = name.size();

@@ -6,17 +6,12 @@
 #include <cmath>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 
 namespace motex {
 namespace {
 
 constexpr double kMarkerRadius = 0.011, kStickRadius = 0.0022;  // shares of the height
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
 
 char other_side(char c) {
   switch (c) {
@@ -37,7 +32,7 @@ char other_side(char c) {
 int find_marker(const MarkerSet& markers, Side side, std::initializer_list<const char*> words) {
   for (const char* word : words)
     for (int m = 0; m < markers.num_markers(); ++m)
-      if (lower(markers.names[static_cast<std::size_t>(m)]).find(word) != std::string::npos &&
+      if (lowered(markers.names[static_cast<std::size_t>(m)]).find(word) != std::string::npos &&
           side_of_marker(markers, m) == side)
         return m;
   return -1;

@@ -10,19 +10,13 @@
 #include <optional>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 #include "motex/core/trimmed.h"
 
 namespace motex {
 namespace {
 
 using Cells = std::vector<std::string_view>;
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
 
 /// The number of a cell, NaN for a gap; nothing for other text.
 std::optional<double> number(std::string_view cell) {
@@ -34,7 +28,7 @@ std::optional<double> number(std::string_view cell) {
   const bool whole = end == cell.data() + cell.size();
   if (whole && error == std::errc::result_out_of_range) return kGap;
   if (whole && error == std::errc()) return std::isfinite(value) ? value : kGap;
-  const std::string word = lower(cell);
+  const std::string word = lowered(cell);
   if (word == "na" || word == "null" || word == "n/a") return kGap;
   return std::nullopt;
 }
@@ -58,7 +52,7 @@ Cells cells_of(std::string_view line, char separator) {
 
 /// Tells which frame it is, not what is seen in it (those of motex people signals too).
 bool only_counts(const std::string& name) {
-  const std::string word = lower(name);
+  const std::string word = lowered(name);
   for (const char* known : {"frame", "frames", "time", "index", "start", "t", "time_secs", "secs", "seconds",
                             "source_frame", "person", "mirrored", "seen"})
     if (word == known) return true;

@@ -3,11 +3,11 @@
 #include "motex/video_io/input_bytes.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 
 namespace motex {
 namespace {
@@ -73,11 +73,6 @@ bool is_text(const std::string& head) {
   });
 }
 
-std::string lower(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 }  // namespace
 
 std::unique_ptr<InputBytes> open_input(const fs::path& path) { return std::make_unique<InputFile>(path); }
@@ -106,7 +101,7 @@ void refuse_text(InputBytes& input, const std::string& name) {
     throw UnsupportedFile(name + ": is a Git-LFS pointer, not the video itself: run git lfs pull");
   const bool is_netpbm = head.size() > 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7' && head[2] <= ' ';
   if (head.rfind("YUV4MPEG2", 0) == 0 || is_netpbm || !is_text(head)) return;
-  if (lower(head).find("<html") != std::string::npos || lower(head).find("<!doctype html") != std::string::npos)
+  if (lowered(head).find("<html") != std::string::npos || lowered(head).find("<!doctype html") != std::string::npos)
     throw UnsupportedFile(name + ": is a web page, not a video: download the video itself");
   throw UnsupportedFile(name + ": is a text file, not a video");
 }
