@@ -56,11 +56,11 @@ struct RandomProjectionReport {
 };
 
 /// Motifs by random projection of symbolic words [Chiu, Keogh, Lonardi 2003], the black box of [PT04] section 2.2: the
-/// 1,000 pairs of windows that collide most (count_collisions(), ranked_cells()) are compared in full; around the 20
-/// closest of them the neighbours are tried too, since a run of equal words is one cell. A motif is the window with
-/// most non-trivial matches within R among the 300 in which the most collisions end; the next ones lie more than 2R
-/// from all before and share at most half of their frames with an occurrence of these (the same action a little later
-/// often lies beyond 2R). Uses the first signal.
+/// pairs of windows that collide most (count_collisions(), ranked_cells()) are compared in full, 1,000 and on until as
+/// many again bring nothing closer; around the 20 closest of them the neighbours are tried too, since a run of equal
+/// words is one cell. A motif is the window with most non-trivial matches within R among the 300 in which the most
+/// collisions end; the next ones lie more than 2R from all before and share at most half of their frames with an
+/// occurrence of these (the same action a little later often lies beyond 2R). Uses the first signal.
 RandomProjectionReport random_projection_motifs(const SeriesWindows& windows,
                                                 const RandomProjectionOptions& options = {},
                                                 const JobContext& job = {});
