@@ -20,14 +20,14 @@ struct FrontColours {
 /// α of I = α (k F) + (1 − α) B for the F among `fronts` that explains the pixel best, k the light on the rim, 1 give
 /// or take s = 0.15. With δ = α (k − 1) the least |I − B − α (F − B) − δ F|² / v + δ² / (s α₀)² has
 ///   α = (I − B)ᵀ M (F − B) / ((F − B)ᵀ M (F − B) · 0.96),   M = 1 − F Fᵀ / (|F|² + v / (s α₀)²)
-/// with v = noise² + 0.02² |F − B|² and α₀ the same for k = 1, at least 0.05. (The rim has about 4 % more of the
-/// screen's light on it than what F was carried from.) Cut off at 0 and 1 and within two deviations of them. inside:
-/// squares to the nearest one that is background; where the pixel lies off all lines, far from B and not at the very
-/// rim it is another material and opaque. noise: deviation of a channel.
+/// with v = noise² + 0.02² |F − B|² and α₀ the same for k = 1, at least 0.05; k = 1 where that fits within noise. (The
+/// rim has about 4 % more of the screen's light on it than what F was carried from.) Cut off at 0 and 1 and within two
+/// deviations of them. inside: squares to the nearest one that is background; where the pixel lies off all lines, far
+/// from B and not at the very rim it is another material and opaque. noise: deviation of a channel.
 inline Four unmixed_alpha(const FourTriple& pixel, const FourTriple& back, const FrontColours& fronts, float noise,
                           int inside) {
   constexpr float kSpilled = 0.96F, kDeadBand = 2, kOffLine = 5, kBend = 0.1F, kContrast = 0.3F, kShading = 0.15F,
-                  kLeastShare = 0.05F, kModel = 0.0004F;
+                  kLeastShare = 0.05F, kModel = 0.0004F, kLit = 12;
   const Four dr = pixel[0] - back[0], dg = pixel[1] - back[1], db = pixel[2] - back[2];
   const Four difference = dr * dr + dg * dg + db * db;
   const float variance = noise * noise;
@@ -42,10 +42,12 @@ inline Four unmixed_alpha(const FourTriple& pixel, const FourTriple& back, const
     const Four of_pixel = dr * r + dg * g + db * b, of_front = fr * r + fg * g + fb * b;
     const Four length = most_of(four_of(variance), whole - of_front * of_front * light);
     const Four along = straight - of_pixel * of_front * light;
+    const auto is_lit = difference * whole - straight * straight <= kLit * variance * whole;  // k = 1 fits
     const Four rest = most_of(four_of(0), difference - of_pixel * of_pixel * light - along * along / length);
     // What fits as well as noise allows is not compared any more.
     const auto is_better = (whole >= 9 * variance) & ((best_rest < 0) | ((rest < best_rest) & (best_rest > variance)));
-    best_along = is_better ? along : best_along, best_length = is_better ? length : best_length;
+    best_along = is_better ? (is_lit ? straight : along) : best_along;
+    best_length = is_better ? (is_lit ? whole : length) : best_length;
     best_whole = is_better ? whole : best_whole, best_rest = is_better ? rest : best_rest;
   }
   const Four alpha = best_along / (kSpilled * best_length);
