@@ -20,7 +20,7 @@ constexpr std::size_t kLeastSights = 4;
 constexpr double kOriginVariance = 0.25;   // pixels², of the place of a burst
 constexpr std::size_t kLongestPiece = 12;  // sights
 constexpr double kBeside = 2;              // half lengths of an element
-constexpr double kFaintest = 0.02;         // share of its amplitude that an element keeps where it shares the light
+constexpr double kFaintest = 0.15;         // share of its amplitude that an element keeps where it shares the light
 
 /// Places alone, gaps filled evenly.
 Cable places_of(const SightChain& chain) {
