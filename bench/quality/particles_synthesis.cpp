@@ -185,8 +185,7 @@ void print_runs(const char* name, std::vector<Apart> runs) {
   }
   std::printf("  %-20s", name);
   for (std::size_t k = 0; k < 7; ++k)
-    runs.size() > 1 ? std::printf("  .%03.0f (.%03.0f)", 1000 * sums[k], 1000 * largest[k])
-                    : std::printf("  .%03.0f       ", 1000 * sums[k]);
+    runs.size() > 1 ? std::printf("  %.3f (%.3f)", sums[k], largest[k]) : std::printf("  %.3f        ", sums[k]);
   for (std::size_t k = 7; k < 9; ++k)
     runs.size() > 1 ? std::printf("  %5.1f %% (%+.1f)", 100 * sums[k], 100 * largest[k])
                     : std::printf("  %+5.1f %%        ", 100 * largest[k]);
@@ -238,7 +237,7 @@ void measure(const std::string& name, const TexturedMotion& model) {
   add_sights(model.cables, size, 0, model.num_frames, observed);
   std::printf("%s: %zu cables, %lld frames, %zu bursts, %.1f in a frame\n", name.c_str(), model.cables.size(),
               static_cast<long long>(model.num_frames), model.maps.bursts.size(), mean_of(observed.count));
-  std::printf("  %-20s  %-11s  %-11s  %-11s  %-11s  %-11s  %-11s  %-11s  %-14s  %s\n", "mean (largest)", "TV speed",
+  std::printf("  %-20s  %-13s  %-13s  %-13s  %-13s  %-13s  %-13s  %-13s  %-14s  %s\n", "mean (largest)", "TV speed",
               "direction", "W1 speed", "direction", "count", "life", "birthplace", "count", "births");
   std::vector<Sights> runs(kRuns);
   const double start = processor_secs();
