@@ -13,6 +13,7 @@
 #include "motex/core/options_check.h"
 #include "motex/core/quantile.h"
 #include "motex/people/activity.h"
+#include "motex/people/motif_refine.h"
 #include "motex/people/motif_seeds.h"
 #include "motex/people/trend.h"
 
@@ -232,6 +233,7 @@ MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& optio
     select(search, seeds, std::log(num_patterns / options.false_motifs), accepted, report.candidates);
   }
   for (Accepted& known : accepted) report.set.motifs.push_back(std::move(known.motif));
+  refine_motifs(search, active, report.set.motifs);
   std::stable_sort(report.set.motifs.begin(), report.set.motifs.end(),
                    [](const Motif& a, const Motif& b) { return a.occurrences.size() > b.occurrences.size(); });
   for (std::size_t k = 0; k < report.set.motifs.size(); ++k)

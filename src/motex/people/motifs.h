@@ -63,6 +63,9 @@ struct MotifReport {
 /// no two share frames, and exemplars of one class lie in one motif (their distance is above 2R otherwise). [PT04]
 /// section 2.2
 ///
+/// Then whole actions are made of them (refine_motifs()): where no window is asked for, one that holds two like
+/// performances is halved and one that holds a part of an action grows; performances left over are gathered.
+///
 /// stretches: never crossed (takes of film); empty = the whole series. A series shorter than two of the shortest
 /// windows has no motif. Throws InvalidInput (window longer than half of the series, options out of range), Cancelled.
 MotifReport find_motifs(const FrameMatrix& series, const FindMotifsOptions& options = {},

@@ -154,6 +154,25 @@ void PatternSearch::prepare(int rows) {
     if (const int length = played_length(rows, tempo); length <= num_frames_) norms_.push_back({length, norms(length)});
 }
 
+Match PatternSearch::closest(const Pattern& pattern, int middle, int reach) const {
+  const int m = static_cast<int>(pattern.rows());
+  Match best;
+  for (const double tempo : kTempos) {
+    const int length = played_length(m, tempo);
+    const Pattern played = length == m ? pattern : stretched(pattern, length);
+    for (int start = middle - reach - length / 2; start <= middle + reach - length / 2; ++start) {
+      if (!whole(start, length)) continue;
+      double dot = 0;
+      for (int s = 0; s < num_signals_; ++s)
+        for (int t = 0; t < length; ++t)
+          dot += played(t, s) * values_[static_cast<std::size_t>(s)][static_cast<std::size_t>(start + t)];
+      const double own = amplitude(start, length), norm = own * std::sqrt(static_cast<double>(length));
+      if (norm > 0 && dot > best.correlation * norm) best = {start, length, dot / norm, own, 0};
+    }
+  }
+  return best;
+}
+
 std::vector<Match> PatternSearch::matches(const Pattern& pattern, double least) const {
   const int m = static_cast<int>(pattern.rows());
   std::vector<Match> best(static_cast<std::size_t>(num_frames_));  // by the middle of the window

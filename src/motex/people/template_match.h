@@ -32,6 +32,9 @@ class PatternSearch {
   /// Highest correlations with the pattern played at 0.82 … 1.22 times its length, at least 0.6 lengths apart, falling;
   /// none below `least`.
   std::vector<Match> matches(const Pattern& pattern, double least) const;
+  /// The highest correlation at those tempos where the middle lies within `reach` frames of `middle`; length 0: no
+  /// whole window there.
+  Match closest(const Pattern& pattern, int middle, int reach) const;
   /// Makes matches() of patterns of that many frames cheaper, until it is told another number. Not thread-safe.
   void prepare(int rows);
   double amplitude(int start, int length) const;

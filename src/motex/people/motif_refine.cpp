@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: 2026 The motex authors
+// SPDX-License-Identifier: MIT
+#include "motex/people/motif_refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "motex/people/background_process.h"
+#include "motex/people/chance_rate.h"
+
+namespace motex {
+namespace {
+
+constexpr double kAgree = 0.85;      // of a match with its pattern, as in the search
+constexpr double kRepeats = 0.7071;  // more than half of what a piece moves is the same every time
+constexpr double kMoves = 0.05;      // variance in a piece / in the window: less is rest or a turning point
+constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
+constexpr double kPieceSecs = 0.2;
+constexpr double kStray = 0.05;  // occurrences that chance may add to a motif
+constexpr double kAmplitudes = 1.9;
+constexpr int kBackgroundFrames = 8000;
+constexpr double kOverlap = 0.3;
+
+int middle(const Occurrence& one) { return one.start + one.length / 2; }
+bool overlap(const Occurrence& a, const Occurrence& b) {
+  const int shared = std::min(a.start + a.length, b.start + b.length) - std::max(a.start, b.start);
+  return shared > kOverlap * std::min(a.length, b.length);
+}
+bool whole(const MotifSearch& search, const Occurrence& one) { return search.frames.whole(one.start, one.length); }
+
+Pattern mean_of(const MotifSearch& search, const std::vector<Occurrence>& all, int window) {
+  Pattern sum = Pattern::Zero(window, search.series.cols());
+  for (const Occurrence& one : all)
+    if (whole(search, one)) sum += search.frames.pattern(one.start, one.length, window);
+  return stretched(sum, window);
+}
+
+/// Every occurrence is laid anew on the mean of all.
+void align(const MotifSearch& search, Motif& motif) {
+  const Pattern mean = mean_of(search, motif.occurrences, motif.window);
+  for (Occurrence& one : motif.occurrences) {
+    const Match match = search.frames.closest(mean, middle(one), std::max(2, motif.window / 10));
+    if (match.length > 0) one.start = match.start, one.length = match.length;
+  }
+}
+
+/// Of every occurrence with the mean of the others; −1 where it is not whole.
+std::vector<double> correlations(const MotifSearch& search, const Motif& motif) {
+  Pattern sum = Pattern::Zero(motif.window, search.series.cols());
+  std::vector<Pattern> own;
+  for (const Occurrence& one : motif.occurrences) {
+    const bool known = whole(search, one);
+    own.push_back(known ? search.frames.pattern(one.start, one.length, motif.window)
+                        : Pattern::Zero(motif.window, search.series.cols()));
+    sum += own.back();
+  }
+  std::vector<double> out;
+  for (std::size_t k = 0; k < own.size(); ++k)
+    out.push_back(whole(search, motif.occurrences[k]) ? own[k].cwiseProduct(stretched(sum - own[k], motif.window)).sum()
+                                                      : -1);
+  return out;
+}
+
+/// Mean squared distance of what is whole.
+double spread(const MotifSearch& search, const Motif& motif) {
+  double sum = 0, count = 0;
+  for (const double correlation : correlations(search, motif))
+    if (correlation > -1) sum += 2 * (1 - correlation), count += 1;
+  return count > 0 ? sum / count : 2;
+}
+
+/// Frames start … start + length − 1 in `rows` rows, less their means.
+FrameMatrix sampled(const MotifSearch& search, int start, int length, int rows) {
+  FrameMatrix out(rows, search.series.cols());
+  for (int t = 0; t < rows; ++t) {
+    const double at = start + t * (length - 1.0) / std::max(1, rows - 1);
+    const auto low = std::min<Index>(static_cast<Index>(at), start + length - 2);
+    const double part = at - static_cast<double>(low);
+    out.row(t) = (1 - part) * search.series.row(low) + part * search.series.row(low + 1);
+  }
+  out.rowwise() -= out.colwise().mean().eval();
+  return out;
+}
+
+/// The means of first and second halves lie no farther apart than two performances.
+bool same_halves(const MotifSearch& search, const Motif& halved) {
+  const auto n = static_cast<double>(halved.occurrences.size()) / 2;
+  if (n < 2) return false;
+  std::vector<FrameMatrix> all;
+  FrameMatrix mean[2] = {FrameMatrix::Zero(halved.window, search.series.cols()),
+                         FrameMatrix::Zero(halved.window, search.series.cols())};
+  for (std::size_t k = 0; k < halved.occurrences.size(); ++k) {
+    const Occurrence &a = halved.occurrences[k - k % 2], &b = halved.occurrences[k - k % 2 + 1],
+                     &one = halved.occurrences[k];
+    const double amplitude = search.frames.amplitude(a.start, a.length) + search.frames.amplitude(b.start, b.length);
+    all.push_back(sampled(search, one.start, one.length, halved.window) / amplitude);
+    mean[k % 2] += all.back() / n;
+  }
+  double within = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) within += (all[k] - mean[k % 2]).squaredNorm() / (2 * (n - 1));
+  return (mean[0] - mean[1]).squaredNorm() <= 2 * within;
+}
+
+/// Two halves that resemble each other are two performances.
+bool halve(const MotifSearch& search, Motif& motif) {
+  const int half = motif.window / 2;
+  if (half < 4 || half < search.options.min_secs * search.options.frames_per_sec) return false;
+  std::vector<Occurrence> first;
+  for (const Occurrence& one : motif.occurrences) first.push_back({one.start, one.length / 2, 0});
+  const Pattern mean = mean_of(search, first, half);
+  std::vector<Occurrence> halves;
+  std::size_t both = 0;
+  for (const Occurrence& one : motif.occurrences) {
+    const Match a = search.frames.closest(mean, one.start + one.length / 4, half / 4);
+    const Match b = search.frames.closest(mean, one.start + 3 * one.length / 4, half / 4);
+    if (a.correlation < kAgree || b.correlation < kAgree) continue;
+    const double ratio = search.frames.amplitude(a.start, a.length) / search.frames.amplitude(b.start, b.length);
+    if (ratio > kAmplitudes || ratio * kAmplitudes < 1) continue;
+    ++both;
+    halves.push_back({a.start, a.length, 0});
+    halves.push_back({b.start, b.length, 0});
+  }
+  if (3 * both < 2 * motif.occurrences.size()) return false;
+  Motif halved = motif;
+  halved.occurrences = std::move(halves);
+  halved.window = half;
+  if (!same_halves(search, halved) || spread(search, halved) > kHalved * spread(search, motif)) return false;
+  motif = std::move(halved);
+  return true;
+}
+
+/// Do the pieces of all occurrences move, and alike?
+bool agree(const MotifSearch& search, const Motif& motif, int from, int rows) {
+  const Index signals = search.series.cols();
+  std::vector<FrameMatrix> pieces;
+  for (std::size_t k = 0; k < motif.occurrences.size(); ++k) {
+    const Occurrence& one = motif.occurrences[k];
+    const double step = static_cast<double>(one.length) / motif.window;
+    const int start = one.start + static_cast<int>(std::lround(from * step)),
+              length = std::max(2, static_cast<int>(std::lround(rows * step)));
+    if (start < 0 || !search.frames.whole(std::min(start, one.start), std::max(start + length, one.start + one.length) -
+                                                                          std::min(start, one.start)))
+      continue;
+    bool taken = false;
+    for (std::size_t j = 0; j < motif.occurrences.size(); ++j) {
+      const Occurrence& other = motif.occurrences[j];
+      const int shared = std::min(start + length, other.start + other.length) - std::max(start, other.start);
+      taken = taken || (j != k && shared > 0.2 * length);
+    }
+    if (taken) continue;
+    FrameMatrix piece = sampled(search, start, length, rows);
+    pieces.push_back(piece / (search.frames.amplitude(one.start, one.length) * std::sqrt(static_cast<double>(rows))));
+  }
+  const auto n = static_cast<double>(pieces.size());
+  if (pieces.size() < 2 || 2 * pieces.size() <= motif.occurrences.size()) return false;
+  FrameMatrix sum = FrameMatrix::Zero(rows, signals);
+  double energy = 0;
+  for (const FrameMatrix& piece : pieces) {
+    sum += piece;
+    energy += piece.squaredNorm();
+  }
+  if (energy < kMoves * n) return false;
+  const double pairs = (sum.squaredNorm() - energy) / ((n - 1) * energy);
+  return pairs > 0 && pairs * std::sqrt((n - 1) / (1 + (n - 2) * pairs)) >= kRepeats;
+}
+
+/// The window grows on both sides as long as what is added moves and agrees.
+void grow_window(const MotifSearch& search, Motif& motif) {
+  const int piece = std::max(4, static_cast<int>(std::lround(kPieceSecs * search.options.frames_per_sec)));
+  const int longest = static_cast<int>(search.options.max_secs * search.options.frames_per_sec);
+  bool open[2] = {true, true};
+  while (open[0] || open[1]) {
+    for (const int side : {0, 1}) {
+      if (!open[side]) continue;
+      open[side] = false;
+      const int furthest = std::max(piece, motif.window / 2);
+      for (int rows = piece; rows <= furthest && motif.window + rows <= longest; rows += piece) {
+        Motif larger = motif;
+        for (Occurrence& one : larger.occurrences) {
+          const int more = static_cast<int>(std::lround(static_cast<double>(rows) * one.length / motif.window));
+          if (side == 0) one.start -= more;
+          one.length += more;
+        }
+        larger.window += rows;
+        align(search, larger);
+        if (!agree(search, larger, side == 0 ? 0 : motif.window, rows)) continue;
+        if (1 - spread(search, larger) / 2 < kAgree) continue;
+        motif = std::move(larger);
+        open[side] = true;
+        break;
+      }
+    }
+  }
+}
+
+/// Leaves out what no longer resembles the others; false: nothing repeats any more.
+bool verify(const MotifSearch& search, Motif& motif) {
+  if (motif.occurrences.size() < 2) return false;
+  const std::vector<double> correlation = correlations(search, motif);
+  std::vector<Occurrence> kept;
+  std::size_t known = 0;
+  for (std::size_t k = 0; k < correlation.size(); ++k) {
+    const bool is_whole = correlation[k] > -1;
+    if (is_whole && correlation[k] < kAgree) continue;
+    kept.push_back(motif.occurrences[k]);
+    known += is_whole ? 1 : 0;
+  }
+  motif.occurrences = std::move(kept);
+  return known >= 2;
+}
+
+/// Who explains most frames keeps them.
+void share_out(const MotifSearch& search, std::vector<Motif>& motifs) {
+  const auto weight = [](const Motif& motif) {
+    return static_cast<double>(motif.window) * static_cast<double>(motif.occurrences.size());
+  };
+  std::stable_sort(motifs.begin(), motifs.end(), [&](const Motif& a, const Motif& b) { return weight(a) > weight(b); });
+  std::vector<Motif> kept;
+  for (Motif& motif : motifs) {
+    std::vector<Occurrence> own;
+    for (const Occurrence& one : motif.occurrences) {
+      bool taken = std::any_of(own.begin(), own.end(), [&](const Occurrence& o) { return overlap(o, one); });
+      for (const Motif& other : kept)
+        taken = taken || std::any_of(other.occurrences.begin(), other.occurrences.end(),
+                                     [&](const Occurrence& o) { return overlap(o, one); });
+      if (!taken) own.push_back(one);
+    }
+    motif.occurrences = std::move(own);
+    if (!verify(search, motif)) continue;
+    kept.push_back(std::move(motif));
+  }
+  motifs = std::move(kept);
+}
+
+struct Found {
+  std::size_t motif;
+  Match match;
+};
+
+void gather(MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs) {
+  std::vector<Found> found;
+  for (std::size_t k = 0; k < motifs.size(); ++k) {
+    const Motif& motif = motifs[k];
+    const Pattern mean = mean_of(search, motif.occurrences, motif.window);
+    double amplitude = 0, places = 0;
+    for (const Occurrence& one : motif.occurrences)
+      if (whole(search, one)) amplitude += search.frames.amplitude(one.start, one.length), places += 1;
+    amplitude /= places;
+    places = static_cast<double>(search.series.rows());
+    std::vector<ChanceRate> rates;
+    for (const bool differenced : {false, true}) {
+      const PatternSearch background(
+          background_series(search.series, active, motif.window, differenced, kBackgroundFrames), {});
+      rates.emplace_back(background.matches(mean, 0.2), background.num_frames());
+    }
+    for (const Match& match : search.frames.matches(mean, kAgree)) {
+      if (match.amplitude > kAmplitudes * amplitude || match.amplitude * kAmplitudes < amplitude) continue;
+      double most = 0;
+      for (const ChanceRate& rate_of : rates) most = std::max(most, rate_of(match.correlation));
+      const Occurrence place{match.start, match.length, 0};
+      bool known = false;
+      for (const Motif& other : motifs)
+        known = known || std::any_of(other.occurrences.begin(), other.occurrences.end(),
+                                     [&](const Occurrence& o) { return overlap(o, place); });
+      const double distance = correlation_distance(match.correlation);
+      if (search.options.radius > 0 ? distance > search.options.radius : most * places > kStray) continue;
+      if (!known) found.push_back({k, match});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& a, const Found& b) { return a.match.correlation > b.match.correlation; });
+  for (const Found& one : found) {
+    const Occurrence place{one.match.start, one.match.length, correlation_distance(one.match.correlation)};
+    bool taken = false;
+    for (const Motif& other : motifs)
+      taken = taken || std::any_of(other.occurrences.begin(), other.occurrences.end(),
+                                   [&](const Occurrence& o) { return overlap(o, place); });
+    if (!taken) motifs[one.motif].occurrences.push_back(place);
+  }
+}
+
+void measure(const MotifSearch& search, Motif& motif) {
+  std::sort(motif.occurrences.begin(), motif.occurrences.end(),
+            [](const Occurrence& a, const Occurrence& b) { return a.start < b.start; });
+  Pattern sum = Pattern::Zero(motif.window, search.series.cols());
+  for (const Occurrence& one : motif.occurrences)
+    if (whole(search, one)) sum += search.frames.pattern(one.start, one.length, motif.window);
+  std::vector<double> distances;
+  for (Occurrence& one : motif.occurrences) {
+    if (!whole(search, one)) {  // cut off by the end of a take
+      continue;
+    }
+    const Pattern own = search.frames.pattern(one.start, one.length, motif.window);
+    const Pattern others = stretched(sum - own, motif.window);
+    one.distance = correlation_distance(own.cwiseProduct(others).sum());
+    distances.push_back(one.distance);
+    if (distances.back() <= *std::min_element(distances.begin(), distances.end())) motif.exemplar = one.start;
+  }
+  std::sort(distances.begin(), distances.end());
+  motif.distance = distances[0];
+  motif.radius = distances.back();
+  for (Occurrence& one : motif.occurrences) {
+    if (whole(search, one)) continue;
+    one.distance = motif.radius;
+    const int from = std::max(0, one.start), centre = middle(one);
+    const int to = std::min(one.start + one.length, static_cast<int>(search.series.rows()));
+    int start = centre, end = centre;
+    while (start > from && search.frames.whole(start - 1, end - start + 1)) --start;
+    while (end < to && search.frames.whole(start, end - start + 1)) ++end;
+    one.start = start;
+    one.length = end - start;
+  }
+}
+
+}  // namespace
+
+void refine_motifs(MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs) {
+  if (search.options.window == 0) {
+    for (Motif& motif : motifs) {
+      while (halve(search, motif)) {
+      }
+      grow_window(search, motif);
+    }
+  }
+  share_out(search, motifs);
+  gather(search, active, motifs);
+  for (Motif& motif : motifs) measure(search, motif);
+}
+
+}  // namespace motex
