@@ -95,7 +95,7 @@ bool same_halves(const MotifSearch& search, const Motif& halved) {
     const Occurrence &a = halved.occurrences[k - k % 2], &b = halved.occurrences[k - k % 2 + 1],
                      &one = halved.occurrences[k];
     const double amplitude = search.frames.amplitude(a.start, a.length) + search.frames.amplitude(b.start, b.length);
-    all.push_back(sampled(search, one.start, one.length, halved.window) / amplitude);
+    all.emplace_back(sampled(search, one.start, one.length, halved.window) / amplitude);
     mean[k % 2] += all.back() / n;
   }
   double within = 0;
@@ -151,7 +151,7 @@ bool agree(const MotifSearch& search, const Motif& motif, int from, int rows) {
     }
     if (taken) continue;
     FrameMatrix piece = sampled(search, start, length, rows);
-    pieces.push_back(piece / (search.frames.amplitude(one.start, one.length) * std::sqrt(static_cast<double>(rows))));
+    pieces.emplace_back(piece / (search.frames.amplitude(one.start, one.length) * std::sqrt(static_cast<double>(rows))));
   }
   const auto n = static_cast<double>(pieces.size());
   if (pieces.size() < 2 || 2 * pieces.size() <= motif.occurrences.size()) return false;
