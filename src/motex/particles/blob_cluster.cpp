@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
+#include "motex/core/wide.h"
 #include "motex/particles/blob_shape.h"
 
 namespace motex {
@@ -79,6 +82,27 @@ void fill_derivatives(Member& member) {
     }
   }
 }
+
+using FourLanes = float __attribute__((vector_size(4 * sizeof(float))));
+using EightLanes = float __attribute__((vector_size(8 * sizeof(float))));
+template <int N>
+using Lanes = std::conditional_t<N == 4, FourLanes, EightLanes>;
+
+/// sum[i] += Σ a[i] b over `num` pixels, a and b their N derivatives.
+template <int N>
+[[gnu::always_inline]] inline void add_products(const float* a, const float* b, int num, Lanes<N>* sum) {
+  Lanes<N> sums[N];
+  for (int i = 0; i < N; ++i) sums[i] = sum[i];
+  for (; num > 0; --num, a += N, b += N) {
+    Lanes<N> row;
+    std::memcpy(&row, b, sizeof row);
+    for (int i = 0; i < N; ++i) sums[i] += a[i] * row;
+  }
+  for (int i = 0; i < N; ++i) sum[i] = sums[i];
+}
+
+MOTEX_WIDE void add_outer(const float* a, const float* b, int num, Lanes<4>* sum) { add_products<4>(a, b, num, sum); }
+MOTEX_WIDE void add_outer(const float* a, const float* b, int num, Lanes<8>* sum) { add_products<8>(a, b, num, sum); }
 
 /// Levenberg–Marquardt of the members of one cluster; N = padded number of parameters.
 template <int N>
@@ -225,9 +249,9 @@ class ClusterSolver {
   }
 
   Block product(const Member& a, const Member& b) const {
-    Block sum = Block::Zero();
     const PixelBox common = intersection(a.box, b.box);
-    if (common.is_empty()) return sum;
+    if (common.is_empty()) return Block::Zero();
+    std::array<Lanes<N>, N> sums{};
     for (int y = common.top; y < common.bottom; ++y) {
       const auto at = [&](const Member& m) {
         return m.derivatives.data() +
@@ -235,10 +259,11 @@ class ClusterSolver {
                 static_cast<std::size_t>(common.left - m.box.left)) *
                    N;
       };
-      const float *da = at(a), *db = at(b);
-      for (int x = 0; x < common.width(); ++x, da += N, db += N)
-        sum.noalias() += Eigen::Map<const Gradient>(da) * Eigen::Map<const Gradient>(db).transpose();
+      add_outer(at(a), at(b), common.width(), sums.data());
     }
+    Block sum;
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < N; ++j) sum(i, j) = sums[static_cast<std::size_t>(i)][j];
     return sum;
   }
 
