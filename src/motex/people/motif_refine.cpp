@@ -18,15 +18,22 @@ constexpr double kRepeats = 0.7071;  // more than half of what a piece moves is 
 constexpr double kMoves = 0.05;      // variance in a piece / in the window: less is rest or a turning point
 constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
 constexpr double kPieceSecs = 0.2;
-constexpr double kStray = 0.05;  // occurrences that chance may add to a motif
-constexpr double kAmplitudes = 1.9;
+constexpr double kSharedPiece = 0.2;  // with another performance: that piece is not free
+constexpr double kStray = 0.05;       // occurrences that chance may add to a motif
+constexpr double kAmplitudes = 1.9;   // ratio of two performances' at most
 constexpr int kBackgroundFrames = 8000;
-constexpr double kOverlap = 0.3;
+constexpr double kOverlap = 0.3;  // of the shorter of two occurrences: they are in each other's way
 
 int middle(const Occurrence& one) { return one.start + one.length / 2; }
 bool overlap(const Occurrence& a, const Occurrence& b) {
   const int shared = std::min(a.start + a.length, b.start + b.length) - std::max(a.start, b.start);
   return shared > kOverlap * std::min(a.length, b.length);
+}
+bool is_taken(const std::vector<Occurrence>& occurrences, const Occurrence& place) {
+  return std::any_of(occurrences.begin(), occurrences.end(), [&](const Occurrence& o) { return overlap(o, place); });
+}
+bool is_taken(const std::vector<Motif>& motifs, const Occurrence& place) {
+  return std::any_of(motifs.begin(), motifs.end(), [&](const Motif& m) { return is_taken(m.occurrences, place); });
 }
 bool whole(const MotifSearch& search, const Occurrence& one) { return search.frames.whole(one.start, one.length); }
 
@@ -131,31 +138,36 @@ bool halve(const MotifSearch& search, Motif& motif) {
   return true;
 }
 
-/// Do the pieces of all occurrences move, and alike?
-bool agree(const MotifSearch& search, const Motif& motif, int from, int rows) {
-  const Index signals = search.series.cols();
+/// Rows `from` … `from + rows − 1` of the window, in every occurrence where they are known and no other's: less their
+/// means, over the occurrence's amplitude.
+std::vector<FrameMatrix> pieces_of(const MotifSearch& search, const Motif& motif, int from, int rows) {
   std::vector<FrameMatrix> pieces;
   for (std::size_t k = 0; k < motif.occurrences.size(); ++k) {
     const Occurrence& one = motif.occurrences[k];
     const double step = static_cast<double>(one.length) / motif.window;
     const int start = one.start + static_cast<int>(std::lround(from * step)),
-              length = std::max(2, static_cast<int>(std::lround(rows * step)));
-    if (start < 0 || !search.frames.whole(std::min(start, one.start), std::max(start + length, one.start + one.length) -
-                                                                          std::min(start, one.start)))
-      continue;
-    bool taken = false;
+              length = std::max(2, static_cast<int>(std::lround(rows * step))), first = std::min(start, one.start),
+              end = std::max(start + length, one.start + one.length);
+    if (start < 0 || !search.frames.whole(first, end - first)) continue;
+    bool is_another = false;
     for (std::size_t j = 0; j < motif.occurrences.size(); ++j) {
       const Occurrence& other = motif.occurrences[j];
       const int shared = std::min(start + length, other.start + other.length) - std::max(start, other.start);
-      taken = taken || (j != k && shared > 0.2 * length);
+      is_another = is_another || (j != k && shared > kSharedPiece * length);
     }
-    if (taken) continue;
-    FrameMatrix piece = sampled(search, start, length, rows);
-    pieces.emplace_back(piece / (search.frames.amplitude(one.start, one.length) * std::sqrt(static_cast<double>(rows))));
+    if (is_another) continue;
+    const double scale = search.frames.amplitude(one.start, one.length) * std::sqrt(static_cast<double>(rows));
+    pieces.emplace_back(sampled(search, start, length, rows) / scale);
   }
+  return pieces;
+}
+
+/// Do the pieces of most occurrences move, and alike?
+bool agree(const MotifSearch& search, const Motif& motif, int from, int rows) {
+  const std::vector<FrameMatrix> pieces = pieces_of(search, motif, from, rows);
   const auto n = static_cast<double>(pieces.size());
   if (pieces.size() < 2 || 2 * pieces.size() <= motif.occurrences.size()) return false;
-  FrameMatrix sum = FrameMatrix::Zero(rows, signals);
+  FrameMatrix sum = FrameMatrix::Zero(rows, search.series.cols());
   double energy = 0;
   for (const FrameMatrix& piece : pieces) {
     sum += piece;
@@ -221,11 +233,7 @@ void share_out(const MotifSearch& search, std::vector<Motif>& motifs) {
   for (Motif& motif : motifs) {
     std::vector<Occurrence> own;
     for (const Occurrence& one : motif.occurrences) {
-      bool taken = std::any_of(own.begin(), own.end(), [&](const Occurrence& o) { return overlap(o, one); });
-      for (const Motif& other : kept)
-        taken = taken || std::any_of(other.occurrences.begin(), other.occurrences.end(),
-                                     [&](const Occurrence& o) { return overlap(o, one); });
-      if (!taken) own.push_back(one);
+      if (!is_taken(own, one) && !is_taken(kept, one)) own.push_back(one);
     }
     motif.occurrences = std::move(own);
     if (!verify(search, motif)) continue;
@@ -234,83 +242,88 @@ void share_out(const MotifSearch& search, std::vector<Motif>& motifs) {
   motifs = std::move(kept);
 }
 
-struct Found {
-  std::size_t motif;
-  Match match;
-};
+/// Mean amplitude of what is whole.
+double amplitude_of(const MotifSearch& search, const Motif& motif) {
+  double sum = 0, count = 0;
+  for (const Occurrence& one : motif.occurrences)
+    if (whole(search, one)) sum += search.frames.amplitude(one.start, one.length), count += 1;
+  return sum / count;
+}
 
-void gather(MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs) {
-  std::vector<Found> found;
-  for (std::size_t k = 0; k < motifs.size(); ++k) {
-    const Motif& motif = motifs[k];
-    const Pattern mean = mean_of(search, motif.occurrences, motif.window);
-    double amplitude = 0, places = 0;
-    for (const Occurrence& one : motif.occurrences)
-      if (whole(search, one)) amplitude += search.frames.amplitude(one.start, one.length), places += 1;
-    amplitude /= places;
-    places = static_cast<double>(search.series.rows());
-    std::vector<ChanceRate> rates;
-    for (const bool differenced : {false, true}) {
-      const PatternSearch background(
-          background_series(search.series, active, motif.window, differenced, kBackgroundFrames), {});
-      rates.emplace_back(background.matches(mean, 0.2), background.num_frames());
-    }
-    for (const Match& match : search.frames.matches(mean, kAgree)) {
-      if (match.amplitude > kAmplitudes * amplitude || match.amplitude * kAmplitudes < amplitude) continue;
-      double most = 0;
-      for (const ChanceRate& rate_of : rates) most = std::max(most, rate_of(match.correlation));
-      const Occurrence place{match.start, match.length, 0};
-      bool known = false;
-      for (const Motif& other : motifs)
-        known = known || std::any_of(other.occurrences.begin(), other.occurrences.end(),
-                                     [&](const Occurrence& o) { return overlap(o, place); });
-      const double distance = correlation_distance(match.correlation);
-      if (search.options.radius > 0 ? distance > search.options.radius : most * places > kStray) continue;
-      if (!known) found.push_back({k, match});
-    }
+/// How often chance brings matches with the pattern: by the level and by the differences of the background.
+std::vector<ChanceRate> chance_rates(const MotifSearch& search, const std::vector<FrameSpan>& active,
+                                     const Pattern& mean, int window) {
+  std::vector<ChanceRate> rates;
+  for (const bool differenced : {false, true}) {
+    const PatternSearch background(background_series(search.series, active, window, differenced, kBackgroundFrames),
+                                   {});
+    rates.emplace_back(background.matches(mean, 0.2), background.num_frames());
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.match.correlation > b.match.correlation; });
-  for (const Found& one : found) {
+  return rates;
+}
+
+/// What no motif has yet, resembles this one and is no chance.
+std::vector<Match> strays_of(const MotifSearch& search, const std::vector<FrameSpan>& active, const Motif& motif) {
+  const Pattern mean = mean_of(search, motif.occurrences, motif.window);
+  const double amplitude = amplitude_of(search, motif), places = static_cast<double>(search.series.rows());
+  const std::vector<ChanceRate> rates = chance_rates(search, active, mean, motif.window);
+  std::vector<Match> strays;
+  for (const Match& match : search.frames.matches(mean, kAgree)) {
+    if (match.amplitude > kAmplitudes * amplitude || match.amplitude * kAmplitudes < amplitude) continue;
+    double rate = 0;
+    for (const ChanceRate& rate_of : rates) rate = std::max(rate, rate_of(match.correlation));
+    const double radius = search.options.radius;
+    const bool is_near = radius > 0 ? correlation_distance(match.correlation) <= radius : rate * places <= kStray;
+    if (is_near) strays.push_back(match);
+  }
+  return strays;
+}
+
+void gather(const MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs) {
+  struct Stray {
+    Motif* motif;
+    Match match;
+  };
+  std::vector<Stray> strays;
+  for (Motif& motif : motifs)
+    for (const Match& match : strays_of(search, active, motif)) strays.push_back({&motif, match});
+  std::stable_sort(strays.begin(), strays.end(),
+                   [](const Stray& a, const Stray& b) { return a.match.correlation > b.match.correlation; });
+  for (const Stray& one : strays) {
     const Occurrence place{one.match.start, one.match.length, correlation_distance(one.match.correlation)};
-    bool taken = false;
-    for (const Motif& other : motifs)
-      taken = taken || std::any_of(other.occurrences.begin(), other.occurrences.end(),
-                                   [&](const Occurrence& o) { return overlap(o, place); });
-    if (!taken) motifs[one.motif].occurrences.push_back(place);
+    if (!is_taken(motifs, place)) one.motif->occurrences.push_back(place);
   }
+}
+
+/// What the end of a take cuts off is shortened to its stretch.
+void shorten(const MotifSearch& search, Occurrence& one) {
+  const int from = std::max(0, one.start),
+            to = std::min(one.start + one.length, static_cast<int>(search.series.rows()));
+  int start = middle(one), end = start;
+  while (start > from && search.frames.whole(start - 1, end - start + 1)) --start;
+  while (end < to && search.frames.whole(start, end - start + 1)) ++end;
+  one.start = start;
+  one.length = end - start;
 }
 
 void measure(const MotifSearch& search, Motif& motif) {
   std::sort(motif.occurrences.begin(), motif.occurrences.end(),
             [](const Occurrence& a, const Occurrence& b) { return a.start < b.start; });
-  Pattern sum = Pattern::Zero(motif.window, search.series.cols());
-  for (const Occurrence& one : motif.occurrences)
-    if (whole(search, one)) sum += search.frames.pattern(one.start, one.length, motif.window);
-  std::vector<double> distances;
-  for (Occurrence& one : motif.occurrences) {
-    if (!whole(search, one)) {  // cut off by the end of a take
-      continue;
-    }
-    const Pattern own = search.frames.pattern(one.start, one.length, motif.window);
-    const Pattern others = stretched(sum - own, motif.window);
-    one.distance = correlation_distance(own.cwiseProduct(others).sum());
-    distances.push_back(one.distance);
-    if (distances.back() <= *std::min_element(distances.begin(), distances.end())) motif.exemplar = one.start;
+  const std::vector<double> correlation = correlations(search, motif);
+  motif.distance = HUGE_VAL;
+  motif.radius = 0;
+  for (std::size_t k = 0; k < correlation.size(); ++k) {
+    Occurrence& one = motif.occurrences[k];
+    if (!whole(search, one)) continue;
+    one.distance = correlation_distance(correlation[k]);
+    if (one.distance <= motif.distance) motif.exemplar = one.start;
+    motif.distance = std::min(motif.distance, one.distance);
+    motif.radius = std::max(motif.radius, one.distance);
   }
-  std::sort(distances.begin(), distances.end());
-  motif.distance = distances[0];
-  motif.radius = distances.back();
   for (Occurrence& one : motif.occurrences) {
     if (whole(search, one)) continue;
     one.distance = motif.radius;
-    const int from = std::max(0, one.start), centre = middle(one);
-    const int to = std::min(one.start + one.length, static_cast<int>(search.series.rows()));
-    int start = centre, end = centre;
-    while (start > from && search.frames.whole(start - 1, end - start + 1)) --start;
-    while (end < to && search.frames.whole(start, end - start + 1)) ++end;
-    one.start = start;
-    one.length = end - start;
+    shorten(search, one);
   }
 }
 
