@@ -3,7 +3,6 @@
 #include "output_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -13,13 +12,6 @@
 
 namespace motex::cli {
 namespace fs = std::filesystem;
-
-std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
 
 void check_output(const std::string& path, const std::vector<std::string>& extensions, const Session& session) {
   const std::string extension = extension_of(path);

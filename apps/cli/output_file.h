@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "motex/core/extension.h"
 #include "session.h"
 
 namespace motex::cli {
-
-/// ".bvh" of "a/B.BVH"; "" when there is none.
-std::string extension_of(const std::string& path);
 
 /// To be called before long work: throws InvalidInput when the extension is none of the known ones (".bvh", …), the
 /// file exists and --force was not given, or nothing can be written there.

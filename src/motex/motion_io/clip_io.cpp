@@ -6,6 +6,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/extension.h"
 #include "motex/core/options_check.h"
 #include "motex/motion_io/asf_amc.h"
 #include "motex/motion_io/bvh.h"
@@ -24,13 +25,6 @@ namespace fs = std::filesystem;
 enum class Kind { kBvh, kAmc, kGltf, kAsf, kFbx, kC3d, kTrc, kNpz, kMotex, kUnknown };
 constexpr const char* kKindNames[] = {"BVH", "AMC", "glTF",       "ASF",         "FBX",
                                       "C3D", "TRC", "zip or NPZ", "motex model", ""};
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 Kind kind_of_extension(const std::string& extension) {
   static constexpr std::pair<const char*, Kind> kKinds[] = {
@@ -78,7 +72,7 @@ std::string joined(const std::vector<std::string>& extensions) {
 }
 
 Kind choose_kind(std::string_view bytes, const std::string& name, const JobContext& job) {
-  const Kind stated = kind_of_extension(lower_extension(name)), found = kind_of_content(bytes);
+  const Kind stated = kind_of_extension(extension_of(name)), found = kind_of_content(bytes);
   if (found == Kind::kUnknown || found == stated) return stated;
   const bool readable = found == Kind::kBvh || found == Kind::kGltf || found == Kind::kFbx;
   if (readable && stated != Kind::kUnknown)
@@ -139,14 +133,14 @@ Clip read_clip(const fs::path& path, const ReadClipOptions& options, const JobCo
 
 void check_clip_extension(const fs::path& path) {
   const auto& known = writable_clip_extensions();
-  if (std::find(known.begin(), known.end(), lower_extension(path)) == known.end())
+  if (std::find(known.begin(), known.end(), extension_of(path)) == known.end())
     throw UnsupportedFile(path.string() + ": motex writes " + joined(known) + "; choose one by the extension");
 }
 
 void write_clip(const fs::path& path, const Clip& clip, const JobContext& job) {
   check_clip_extension(path);
   job.check_cancelled();
-  const std::string extension = lower_extension(path);
+  const std::string extension = extension_of(path);
   if (extension == ".bvh") write_bvh(path, clip);
   if (extension == ".glb") {
     if (clip.skeleton.skin && !skin_fits(clip.skeleton))

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 #include "motex/motion_io/gltf_buffers.h"
 #include "motex/motion_io/gltf_container.h"
 #include "motex/motion_io/gltf_skin.h"
@@ -17,12 +18,7 @@ using Json = nlohmann::json;
 constexpr double kSame = 0.03;  // of the mean length of bones
 
 /// Without prefix, in lower case.
-std::string plain_name(const std::string& name) {
-  std::string out = name.substr(name.find_last_of(":|") + 1);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
+std::string plain_name(const std::string& name) { return lowered(name.substr(name.find_last_of(":|") + 1)); }
 
 /// Joint of the skeleton by joint of the skin.
 std::vector<int> find_joints(const Skin& skin, const Skeleton& skeleton) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "motex/core/files.h"
+#include "motex/core/extension.h"
 #include "motex/core/options_check.h"
 #include "motex/motion/up_axis.h"
 #include "motex/motion_io/c3d.h"
@@ -23,18 +24,11 @@ namespace fs = std::filesystem;
 
 enum class Kind { kNone, kC3d, kTrc };
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
-
 // A C3D begins with two bytes alone: the block of its parameters and 80. The third is the low byte of a count.
 Kind kind_of(std::string_view start, const std::string& name) {
   const std::size_t text = start.substr(0, 3) == "\xEF\xBB\xBF" ? 3 : 0;
   if (same_word(start.substr(text, 12), "PathFileType")) return Kind::kTrc;
-  const std::string extension = lower_extension(name);
+  const std::string extension = extension_of(name);
   const bool marked = start.size() > 2 && start[1] == 0x50 && start[0] > 0 && start[0] < 64;
   const bool other_text = start.size() > 2 && start[0] >= ' ';
   if (extension == ".c3d") return other_text ? Kind::kNone : Kind::kC3d;
@@ -101,7 +95,7 @@ void apply_read_options(const ReadClipOptions& options, MarkerSet& markers) {
 }
 
 void write_markers(const fs::path& path, const MarkerSet& markers, const JobContext& job) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = extension_of(path);
   job.check_cancelled();
   if (extension == ".trc")
     write_trc(path, markers);

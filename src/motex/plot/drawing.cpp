@@ -3,12 +3,12 @@
 #include "motex/plot/drawing.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/extension.h"
 #include "motex/image/png.h"
 
 namespace motex {
@@ -55,9 +55,7 @@ std::vector<Point> rectangle(Point top_left, double width, double height) {
 std::string to_png(const Drawing& drawing, double scale) { return encode_png(render(drawing, scale)); }
 
 void write_picture(const std::filesystem::path& path, const Drawing& drawing) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   if (extension == ".png")
     write_file(path, to_png(drawing));
   else if (extension == ".svg")

@@ -9,14 +9,13 @@
 #include "motex/audio/beat_tracking.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/extension.h"
 
 namespace motex {
 namespace {
 
 bool is_wav(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = extension_of(path);
   return extension == ".wav" || extension == ".wave";
 }
 

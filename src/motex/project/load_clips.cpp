@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "motex/core/extension.h"
 #include "motex/core/parallel.h"
 #include "motex/motion/unify.h"
 #include "motex/motion_io/clip_io.h"
@@ -16,9 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool has_readable_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = extension_of(path);
   const auto& known = readable_clip_extensions();
   return std::find(known.begin(), known.end(), extension) != known.end();
 }

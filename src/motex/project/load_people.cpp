@@ -3,13 +3,13 @@
 #include "motex/project/load_people.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "motex/core/error.h"
+#include "motex/core/extension.h"
 #include "motex/project/people_model_file.h"
 #include "motex/video_io/video_reader.h"
 
@@ -58,12 +58,7 @@ class ModelPictures : public FramePictures {
 
 }  // namespace
 
-bool is_people_model(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".motex";
-}
+bool is_people_model(const std::filesystem::path& path) { return extension_of(path) == ".motex"; }
 
 LoadedPeople load_people(const std::filesystem::path& path, const PeopleFootageOptions& options,
                          const JobContext& job) {

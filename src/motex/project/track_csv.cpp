@@ -9,6 +9,7 @@
 #include <map>
 
 #include "motex/core/error.h"
+#include "motex/core/lowered.h"
 #include "motex/core/trimmed.h"
 #include "motex/image/planes.h"
 
@@ -102,8 +103,7 @@ class TableReader {
       }
     std::vector<std::string> heading;
     for (const std::string_view word : split(line, separator_)) {
-      heading.emplace_back(word.substr(word.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0));
-      for (char& c : heading.back()) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      heading.push_back(lowered(word.substr(word.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0)));
     }
     for (std::size_t column = 0; column < kNumColumns; ++column) {
       places_[column] = -1;

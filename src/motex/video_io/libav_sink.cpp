@@ -17,6 +17,7 @@ extern "C" {
 
 #include "motex/core/error.h"
 #include "motex/core/files.h"
+#include "motex/core/extension.h"
 #include "motex/video_io/frame_sink.h"
 #include "motex/video_io/libav_handles.h"
 #include "motex/video_io/video_writer.h"
@@ -57,8 +58,7 @@ constexpr Recipe kRecipes[] = {
 };
 
 const Recipe& recipe_for(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = extension_of(path);
   for (const Recipe& recipe : kRecipes)
     if (extension == recipe.extension) return recipe;
   throw UnsupportedFile(path.string() + ": the name of a video ends in .mp4, .webm, .mov, .mkv or .avi");
