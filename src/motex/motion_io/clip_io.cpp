@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "motex/core/error.h"
-#include "motex/core/files.h"
 #include "motex/core/extension.h"
+#include "motex/core/files.h"
 #include "motex/core/options_check.h"
 #include "motex/motion_io/asf_amc.h"
 #include "motex/motion_io/bvh.h"

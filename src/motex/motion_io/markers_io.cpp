@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "motex/core/files.h"
 #include "motex/core/extension.h"
+#include "motex/core/files.h"
 #include "motex/core/options_check.h"
 #include "motex/motion/up_axis.h"
 #include "motex/motion_io/c3d.h"

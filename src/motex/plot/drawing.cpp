@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "motex/core/error.h"
-#include "motex/core/files.h"
 #include "motex/core/extension.h"
+#include "motex/core/files.h"
 #include "motex/image/png.h"
 
 namespace motex {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMostPreviews = 1500;      // kept of a video
 constexpr std::size_t kMostOfShot = 15;  // of these looked at
+constexpr double kOwnPlateSecs = 4;      // a shot that long shows its background by itself, its lettering too
 
 /// Frames `first`, `first + step`, … of a span, or of several one after another.
 struct EvenFrames {
@@ -68,12 +69,12 @@ bool same_background(const Image& a, const Image& b) {
   return same * 10 >= 6 * a.width * a.height && same_border * 10 >= 8 * border;
 }
 
-std::vector<int> scenes_of(const std::vector<FrameSpan>& shots, const std::vector<Preview>& previews) {
+std::vector<int> scenes_of(const std::vector<FrameSpan>& shots, const std::vector<Preview>& previews, double rate) {
   std::vector<int> scenes;
   std::vector<Image> backgrounds;
   for (const FrameSpan& shot : shots) {
     Image median = shots.size() > 1 ? median_preview(previews, shot) : Image();
-    std::size_t scene = 0;
+    std::size_t scene = shot.length >= kOwnPlateSecs * rate ? backgrounds.size() : 0;
     while (scene < backgrounds.size() && !same_background(backgrounds[scene], median)) ++scene;
     if (scene == backgrounds.size()) backgrounds.push_back(std::move(median));
     scenes.push_back(static_cast<int>(scene));
@@ -88,7 +89,8 @@ FootageScan scan_footage(VideoReader& reader, const FrameSpan& span, const JobCo
   const PictureSize small = ShotFinder::small_size(info.width, info.height);
   const EvenFrames wanted = even_frames(span.length, info);
   const int preview_step = 1 + span.length / kMostPreviews;
-  ShotFinder finder(info.frames_per_sec > 0 ? info.frames_per_sec : 25);
+  const double rate = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
+  ShotFinder finder(rate);
   FootageScan scan;
   std::vector<Preview> previews;
   VideoFrame frame;
@@ -109,7 +111,7 @@ FootageScan scan_footage(VideoReader& reader, const FrameSpan& span, const JobCo
   scan.report = finder.finish();
   for (auto* spans : {&scan.report.shots, &scan.report.flashes})
     for (FrameSpan& one : *spans) one.start += span.start;
-  scan.scenes = scenes_of(scan.report.shots, previews);
+  scan.scenes = scenes_of(scan.report.shots, previews, rate);
   return scan;
 }
 

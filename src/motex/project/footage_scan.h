@@ -21,7 +21,8 @@ struct PlateFrames {
 /// What one reading of footage tells before it is keyed.
 struct FootageScan {
   ShotReport report;
-  /// Of each shot, shots before one and the same background alike; from 0 in the order of their first shots.
+  /// Of each shot; from 0 in the order of their first shots. A shot of four seconds is a scene of its own, a shorter
+  /// one belongs to the first scene with its background.
   std::vector<int> scenes;
   PlateFrames plate_frames;  ///< of all that was read, taken as it went by
 };

@@ -48,9 +48,9 @@ struct KeyFootageReport {
 };
 
 /// A video keyed frame by frame in two passes: the first looks for hard cuts and takes frames for the clean plate as
-/// they go by, the second gives the frames in order. Shots before one background share a plate, each other one has its
-/// own. Frames are keyed several at a time, while the next ones are read, with the same result for any number of
-/// threads. Footage that has alpha already is taken as it is.
+/// they go by, the second gives the frames in order. Every scene of the scan has a plate of its own. Frames are keyed
+/// several at a time, while the next ones are read, with the same result for any number of threads. Footage that has
+/// alpha already is taken as it is.
 ///
 ///   KeyedFootage footage("take1.mp4", {}, job);
 ///   for (KeyedFrame frame; footage.next(frame);) use(frame.sprite);

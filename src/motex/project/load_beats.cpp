@@ -8,8 +8,8 @@
 
 #include "motex/audio/beat_tracking.h"
 #include "motex/core/error.h"
-#include "motex/core/files.h"
 #include "motex/core/extension.h"
+#include "motex/core/files.h"
 
 namespace motex {
 namespace {

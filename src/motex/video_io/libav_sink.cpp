@@ -16,8 +16,8 @@ extern "C" {
 #include <new>
 
 #include "motex/core/error.h"
-#include "motex/core/files.h"
 #include "motex/core/extension.h"
+#include "motex/core/files.h"
 #include "motex/video_io/frame_sink.h"
 #include "motex/video_io/libav_handles.h"
 #include "motex/video_io/video_writer.h"
