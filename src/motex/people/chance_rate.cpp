@@ -52,4 +52,16 @@ double ChanceRate::operator()(double correlation) const {
   return static_cast<double>(above - closeness_.begin()) / num_frames_;
 }
 
+ChanceRates::ChanceRates(const std::vector<PatternSearch>& backgrounds, const Pattern& pattern) {
+  constexpr double kLeast = 0.2;  // correlation: enough for the tail
+  for (const PatternSearch& background : backgrounds)
+    rates_.emplace_back(background.matches(pattern, kLeast), background.num_frames());
+}
+
+double ChanceRates::operator()(double correlation) const {
+  double most = 0;
+  for (const ChanceRate& rate_of : rates_) most = std::max(most, rate_of(correlation));
+  return most;
+}
+
 }  // namespace motex

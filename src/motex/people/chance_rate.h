@@ -25,4 +25,14 @@ class ChanceRate {
   double tail_ = 0, from_ = 0, mean_excess_ = 1;
 };
 
+/// The same of several backgrounds, the highest.
+class ChanceRates {
+ public:
+  ChanceRates(const std::vector<PatternSearch>& backgrounds, const Pattern& pattern);
+  double operator()(double correlation) const;
+
+ private:
+  std::vector<ChanceRate> rates_;
+};
+
 }  // namespace motex

@@ -7,31 +7,19 @@
 #include <cstddef>
 #include <utility>
 
-#include "motex/people/background_process.h"
 #include "motex/people/chance_rate.h"
 
 namespace motex {
 namespace {
 
-constexpr double kAgree = 0.85;      // of a match with its pattern, as in the search
 constexpr double kRepeats = 0.7071;  // more than half of what a piece moves is the same every time
 constexpr double kMoves = 0.05;      // variance in a piece / in the window: less is rest or a turning point
 constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
 constexpr double kPieceSecs = 0.2;
 constexpr double kSharedPiece = 0.2;  // with another performance: that piece is not free
 constexpr double kStray = 0.05;       // occurrences that chance may add to a motif
-constexpr double kAmplitudes = 1.9;   // ratio of two performances' at most
-constexpr int kBackgroundFrames = 8000;
-constexpr double kOverlap = 0.3;  // of the shorter of two occurrences: they are in each other's way
 
 int middle(const Occurrence& one) { return one.start + one.length / 2; }
-bool overlap(const Occurrence& a, const Occurrence& b) {
-  const int shared = std::min(a.start + a.length, b.start + b.length) - std::max(a.start, b.start);
-  return shared > kOverlap * std::min(a.length, b.length);
-}
-bool is_taken(const std::vector<Occurrence>& occurrences, const Occurrence& place) {
-  return std::any_of(occurrences.begin(), occurrences.end(), [&](const Occurrence& o) { return overlap(o, place); });
-}
 bool is_taken(const std::vector<Motif>& motifs, const Occurrence& place) {
   return std::any_of(motifs.begin(), motifs.end(), [&](const Motif& m) { return is_taken(m.occurrences, place); });
 }
@@ -123,8 +111,7 @@ bool halve(const MotifSearch& search, Motif& motif) {
     const Match a = search.frames.closest(mean, one.start + one.length / 4, half / 4);
     const Match b = search.frames.closest(mean, one.start + 3 * one.length / 4, half / 4);
     if (a.correlation < kAgree || b.correlation < kAgree) continue;
-    const double ratio = search.frames.amplitude(a.start, a.length) / search.frames.amplitude(b.start, b.length);
-    if (ratio > kAmplitudes || ratio * kAmplitudes < 1) continue;
+    if (!is_as_strong(search.frames.amplitude(a.start, a.length), search.frames.amplitude(b.start, b.length))) continue;
     ++both;
     halves.push_back({a.start, a.length, 0});
     halves.push_back({b.start, b.length, 0});
@@ -250,30 +237,17 @@ double amplitude_of(const MotifSearch& search, const Motif& motif) {
   return sum / count;
 }
 
-/// How often chance brings matches with the pattern: by the level and by the differences of the background.
-std::vector<ChanceRate> chance_rates(const MotifSearch& search, const std::vector<FrameSpan>& active,
-                                     const Pattern& mean, int window) {
-  std::vector<ChanceRate> rates;
-  for (const bool differenced : {false, true}) {
-    const PatternSearch background(background_series(search.series, active, window, differenced, kBackgroundFrames),
-                                   {});
-    rates.emplace_back(background.matches(mean, 0.2), background.num_frames());
-  }
-  return rates;
-}
-
 /// What no motif has yet, resembles this one and is no chance.
 std::vector<Match> strays_of(const MotifSearch& search, const std::vector<FrameSpan>& active, const Motif& motif) {
   const Pattern mean = mean_of(search, motif.occurrences, motif.window);
   const double amplitude = amplitude_of(search, motif), places = static_cast<double>(search.series.rows());
-  const std::vector<ChanceRate> rates = chance_rates(search, active, mean, motif.window);
+  const ChanceRates rate_of(backgrounds_of(search.series, active, motif.window), mean);
   std::vector<Match> strays;
   for (const Match& match : search.frames.matches(mean, kAgree)) {
-    if (match.amplitude > kAmplitudes * amplitude || match.amplitude * kAmplitudes < amplitude) continue;
-    double rate = 0;
-    for (const ChanceRate& rate_of : rates) rate = std::max(rate, rate_of(match.correlation));
+    if (!is_as_strong(match.amplitude, amplitude)) continue;
     const double radius = search.options.radius;
-    const bool is_near = radius > 0 ? correlation_distance(match.correlation) <= radius : rate * places <= kStray;
+    const bool is_near =
+        radius > 0 ? correlation_distance(match.correlation) <= radius : rate_of(match.correlation) * places <= kStray;
     if (is_near) strays.push_back(match);
   }
   return strays;

@@ -17,12 +17,10 @@ namespace {
 
 constexpr int kSeedsALength = 14, kSeedsOfOneLength = 60;
 constexpr int kBackgroundFrames = 8000;
-constexpr double kLeastCorrelation = 0.85;
 constexpr double kLeastActive = 0.3;
 constexpr double kLeastActiveSeed = 0.8, kLeastActiveWhole = 0.6;  // of a window whose length was not asked for
 constexpr double kLeastBend = 0.1;
 constexpr double kLeastStep = 0.9;
-constexpr double kAmplitudes = 1.9;
 constexpr std::size_t kMostOccurrences = 4000;
 
 double least_active(const MotifSearch& search, double of_any_length) {
@@ -77,8 +75,8 @@ std::vector<int> seeds_of(const MatrixProfile& profile, int most) {
 
 std::vector<Match> matches_of(const MotifSearch& search, const Pattern& pattern, double amplitude) {
   std::vector<Match> out;
-  for (const Match& match : search.frames.matches(pattern, kLeastCorrelation)) {
-    if (match.amplitude > kAmplitudes * amplitude || match.amplitude * kAmplitudes < amplitude) continue;
+  for (const Match& match : search.frames.matches(pattern, kAgree)) {
+    if (!is_as_strong(match.amplitude, amplitude)) continue;
     if (!search.action.allow(match.start, match.length, search.whole_only, least_active(search, kLeastActiveWhole)))
       continue;
     out.push_back(match);
@@ -98,15 +96,9 @@ Pattern mean_pattern(const MotifSearch& search, const std::vector<Match>& matche
 }
 
 void weigh(MotifSeed& seed, const MotifSearch& search, const Pattern& pattern) {
-  std::vector<ChanceRate> rates;
-  for (const PatternSearch& background : search.backgrounds)
-    rates.emplace_back(background.matches(pattern, 0.2), background.num_frames());
+  const ChanceRates rate_of(search.backgrounds, pattern);
   seed.lambda.clear();
-  for (const Match& match : seed.matches) {
-    double most = 0;
-    for (const ChanceRate& rate_of : rates) most = std::max(most, rate_of(match.correlation));
-    seed.lambda.push_back(most * search.places);
-  }
+  for (const Match& match : seed.matches) seed.lambda.push_back(rate_of(match.correlation) * search.places);
   rate(seed, search.options);
 }
 
@@ -161,6 +153,14 @@ MotifSeed grow(const MotifSearch& search, int start, int window) {
 
 }  // namespace
 
+std::vector<PatternSearch> backgrounds_of(const FrameMatrix& series, const std::vector<FrameSpan>& active, int window) {
+  std::vector<PatternSearch> backgrounds;
+  for (const bool differenced : {false, true})
+    backgrounds.emplace_back(background_series(series, active, window, differenced, kBackgroundFrames),
+                             std::vector<FrameSpan>{});
+  return backgrounds;
+}
+
 void rate(MotifSeed& seed, const FindMotifsOptions& options) {
   seed.gain = 0;
   seed.count = 1;
@@ -197,10 +197,7 @@ std::vector<MotifSeed> motif_seeds(MotifSearch& search, const std::vector<int>& 
     const std::vector<int> starts = seeds_of(profile, search.options.window > 0 ? kSeedsOfOneLength : kSeedsALength);
     search.places = static_cast<double>(std::count(windows.usable.begin(), windows.usable.end(), 1));
     num_patterns += search.places / (window / 2.0);
-    search.backgrounds.clear();
-    for (const bool differenced : {false, true})
-      search.backgrounds.emplace_back(background_series(search.series, active, window, differenced, kBackgroundFrames),
-                                      std::vector<FrameSpan>{});
+    search.backgrounds = backgrounds_of(search.series, active, window);
     search.frames.prepare(window);
     for (PatternSearch& background : search.backgrounds) background.prepare(window);
     const std::size_t first = seeds.size();

@@ -26,11 +26,6 @@ constexpr double kLevelSecs = 0.8;
 constexpr double kDriftSecs = 5;
 constexpr std::size_t kMostCandidates = 16;
 
-bool overlaps(const Match& a, const Occurrence& b) {
-  const int shared = std::min(a.start + a.length, b.start + b.length) - std::max(a.start, b.start);
-  return shared > 0.3 * std::min(a.length, b.length);
-}
-
 std::vector<int> lengths(const FindMotifsOptions& options, int longest) {
   if (2 * options.window > longest)
     throw InvalidInput("windows of " + std::to_string(options.window) + " frames in a series of " +
@@ -80,9 +75,7 @@ Motif motif_of(const MotifSearch& search, const MotifSeed& seed) {
 void drop_taken(MotifSeed& seed, const Motif& motif, const FindMotifsOptions& options) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < seed.matches.size(); ++k) {
-    const bool is_taken = std::any_of(motif.occurrences.begin(), motif.occurrences.end(),
-                                      [&](const Occurrence& o) { return overlaps(seed.matches[k], o); });
-    if (is_taken) continue;
+    if (is_taken(motif.occurrences, seed.matches[k])) continue;
     seed.matches[kept] = seed.matches[k];
     seed.lambda[kept++] = seed.lambda[k];
   }
