@@ -45,12 +45,6 @@ Signals mixed(const Signals& a, const Signals& b, double weight) {
   return mix;
 }
 
-const Take& take_with(const PeopleTexture& texture, int frame) {
-  for (const Take& take : texture.takes)
-    if (frame >= take.frames.start && frame < take.frames.end()) return take;
-  throw InvalidInput("frame " + std::to_string(frame) + " is in no take");
-}
-
 double percentile_95(std::vector<double> values, double least) {
   return values.empty() ? least : std::max(quantile(std::move(values), 0.95), least);
 }
@@ -95,7 +89,7 @@ CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDi
                                     int to, int transition_frames) {
   CutSmoothness smoothness = cut_smoothness(texture, scales, from, to);
   if (transition_frames <= 0) return smoothness;
-  const Take &left = take_with(texture, from), &entered = take_with(texture, to);
+  const Take &left = take_of(texture, from), &entered = take_of(texture, to);
   const auto before_cut = [&] { return (transition_frames + 1) / 2; };
   while (transition_frames > 0 &&
          (to - before_cut() < entered.frames.start || from - before_cut() + transition_frames >= left.frames.end()))
@@ -123,6 +117,13 @@ CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDi
                  std::hypot(second_difference(a.x, b.x, c.x), second_difference(a.y, b.y, c.y)) / scales.centroid);
   }
   return smoothness;
+}
+
+const Take& take_of(const PeopleTexture& texture, int frame) {
+  for (const Take& take : texture.takes)
+    if (frame >= take.frames.start && frame < take.frames.end()) return take;
+  throw InvalidInput("frame " + std::to_string(frame) + " lies in no take of the people texture, which has " +
+                     std::to_string(texture.num_frames()) + " frames");
 }
 
 std::vector<int> take_of_frames(const PeopleTexture& texture) {

@@ -32,6 +32,9 @@ CutSmoothness cut_smoothness(const PeopleTexture& texture, const SecondDifferenc
 CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from,
                                     int to, int transition_frames);
 
+/// The take that holds the frame. Throws InvalidInput where none does.
+const Take& take_of(const PeopleTexture& texture, int frame);
+
 /// Take of a frame: index in texture.takes by frame. Throws InvalidInput unless takes cover all frames without gaps.
 std::vector<int> take_of_frames(const PeopleTexture& texture);
 

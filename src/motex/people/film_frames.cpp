@@ -6,18 +6,12 @@
 #include <string>
 
 #include "motex/core/error.h"
+#include "motex/people/cut_smoothness.h"
 
 namespace motex {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-const Take& take_of(const PeopleTexture& texture, int frame) {
-  for (const Take& take : texture.takes)
-    if (frame >= take.frames.start && frame < take.frames.end()) return take;
-  throw InvalidInput("frame " + std::to_string(frame) + " lies in no take of the people texture, which has " +
-                     std::to_string(texture.num_frames()) + " frames");
-}
 
 void check(const PeopleTexture& texture, const EditList& edits) {
   const std::size_t num_shots = edits.shots.size();

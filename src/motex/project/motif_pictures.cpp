@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "motex/core/error.h"
+#include "motex/people/cut_smoothness.h"
 #include "motex/plot/charts.h"
 #include "motex/plot/colour.h"
 
@@ -43,11 +44,6 @@ const Occurrence& closest_of(const Motif& motif) {
 std::string title_of(const Motif& motif) {
   const std::string name = motif.name.empty() ? motif.letter : motif.letter + " \"" + motif.name + "\"";
   return name + ", " + std::to_string(motif.occurrences.size()) + " times";
-}
-
-const Take& take_of(const PeopleTexture& texture, int frame) {
-  return *std::find_if(texture.takes.begin(), texture.takes.end() - 1,
-                       [&](const Take& take) { return frame < take.frames.end(); });
 }
 
 std::string place_of(const PeopleTexture& texture, int frame) {
