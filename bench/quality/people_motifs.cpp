@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Motifs against known truth: series in which actions are planted between idle frames (sway and noise), ten seeds of
 // each variant: recall and precision (a performance is found when a motif of its class begins at most half a window
-// away), with the window told and not told; processor seconds of the exact matrix profile.
+// away), with the window told and not told.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,8 +11,6 @@
 #include <map>
 
 #include "bench/quality/planted_actions.h"
-#include "motex/core/rng.h"
-#include "motex/people/matrix_profile.h"
 #include "motex/people/motifs.h"
 
 namespace motex {
@@ -70,21 +68,6 @@ void measure(const bench::Variant& variant) {
   }
 }
 
-void measure_speed() {
-  JobContext one;
-  one.jobs = 1;
-  for (const int num_frames : {9000, 100000}) {
-    Rng rng(1);
-    FrameMatrix x(num_frames, 1);
-    double level = 0;
-    for (Index t = 0; t < num_frames; ++t) x(t, 0) = level = 0.9 * level + rng.normal();
-    const std::clock_t begin = std::clock();
-    matrix_profile(series_windows(x, 80), -1, one);
-    std::printf("exact profile, %d points, window 80: %.3f s of processor\n", num_frames,
-                static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-}
-
 }  // namespace
 }  // namespace motex
 
@@ -97,6 +80,5 @@ int main() {
         motex::bench::Variant{"40 frames", 4, 5, 40, 0.05, 0.012},
         motex::bench::Variant{"160 frames", 4, 5, 160, 0.05, 0.012}})
     motex::measure(variant);
-  motex::measure_speed();
   return 0;
 }
