@@ -10,7 +10,7 @@
 
 #include "commands.h"
 #include "interrupt.h"
-#include "motex/motion_io/csv_text.h"
+#include "motex/core/csv.h"
 #include "motex/project/motion_texture_file.h"
 #include "options_value.h"
 #include "steer_input.h"

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "commands.h"
+#include "motex/core/csv.h"
 #include "motex/core/files.h"
 #include "motex/particles/cable_tracks.h"
 #include "motex/particles/carry_bases.h"
@@ -34,7 +35,7 @@ std::string surprise_csv(const TexturedMotion& observed, const Explanation& expl
       text += std::to_string(tracks[c].id) + "," + std::to_string(point.frame);
       for (const double value :
            {point.x, point.y, point.scale, point.angle, point.amplitude, explanation.surprise[c][k]})
-        text += "," + short_number(value);
+        text += "," + rounded_text(value, 6);
       text += "\n";
     }
   return text;

@@ -3,9 +3,6 @@
 #include "particles_model.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 
 #include "arguments.h"
@@ -39,12 +36,6 @@ std::pair<int, int> parse_picture_size(const std::string& text) {
 Planes reconstructed_frame(const TexturedMotion& model, std::int64_t frame) {
   return reconstruct(bases_in_frame(model.cables, frame, model.width, model.height, model.num_planes),
                      model.background);
-}
-
-std::string short_number(double value) {
-  std::array<char, 32> word{};
-  const double rounded = std::round(value * 1e6) / 1e6 + 0.0;  // no "-0"
-  return {word.data(), std::to_chars(word.data(), word.data() + word.size(), rounded).ptr};
 }
 
 }  // namespace motex::cli

@@ -19,7 +19,4 @@ std::pair<int, int> parse_picture_size(const std::string& text);
 /// Background + bases of the cables in that frame.
 Planes reconstructed_frame(const TexturedMotion& model, std::int64_t frame);
 
-/// The shortest decimal of value rounded to 1e-6.
-std::string short_number(double value);
-
 }  // namespace motex::cli

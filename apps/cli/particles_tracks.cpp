@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "commands.h"
+#include "motex/core/csv.h"
 #include "motex/core/files.h"
 #include "motex/particles/cable_tracks.h"
 #include "motex/particles/link_cores.h"
@@ -44,7 +45,7 @@ std::string physical_csv(const std::vector<Track>& tracks, const TrackedClip& cl
       text += std::to_string(track.id) + "," + std::to_string(point.frame);
       for (const double value : {point.x * size, point.y * size, point.scale * size, point.angle, point.amplitude, size,
                                  static_cast<double>(point.frame) * clip.frame_interval})
-        text += "," + short_number(value);
+        text += "," + rounded_text(value, 6);
       text += "\n";
     }
   return text;

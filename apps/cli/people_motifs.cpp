@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The motex authors
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "closest.h"
 #include "commands.h"
+#include "motex/core/csv.h"
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
 #include "motex/people/matrix_profile.h"
@@ -25,10 +25,9 @@ namespace {
 
 std::string profile_csv(const MatrixProfile& profile) {
   std::string text = "start,distance,nearest\n";
-  char word[40];
   for (std::size_t k = 0; k < profile.distance.size(); ++k) {
     text += std::to_string(k) + ',';
-    text.append(word, std::to_chars(word, word + sizeof word, profile.distance[k]).ptr);
+    append_number(text, profile.distance[k]);
     text += ',' + std::to_string(profile.nearest[k]) + '\n';
   }
   return text;

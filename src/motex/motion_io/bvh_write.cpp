@@ -8,6 +8,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "motex/core/csv.h"
 #include "motex/core/files.h"
 #include "motex/motion_io/bvh.h"
 #include "motex/motion_io/euler_channels.h"
@@ -20,11 +21,6 @@ constexpr double kLargestPositionError = 0.5e-6;  // from angles, and as much ag
 constexpr int kMaxIndent = 40;
 
 std::size_t at(int idx) { return static_cast<std::size_t>(idx); }
-
-void append(std::string& text, double shortest) {
-  char buffer[32];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, shortest).ptr);
-}
 
 // A fixed number of decimals through integers: some ten times as fast as to_chars with a precision.
 class FixedFormat {
@@ -99,7 +95,7 @@ std::string safe_name(const Joint& joint, int idx) {
 void BvhWriter::write_offset(const Vector3& offset, int depth) {
   indent(depth);
   text_ += "OFFSET";
-  for (const double x : offset) append(text_ += ' ', x);
+  for (const double x : offset) append_number(text_ += ' ', x);
   text_ += '\n';
 }
 
@@ -201,7 +197,7 @@ void BvhWriter::choose_decimals(int& angle, int& position) const {
 
 void BvhWriter::write_rows() {
   text_ += "MOTION\nFrames: " + std::to_string(clip_.num_frames()) + "\nFrame Time: ";
-  append(text_, clip_.frame_time_secs);
+  append_number(text_, clip_.frame_time_secs);
   text_ += '\n';
   int angle_decimals = 0, position_decimals = 0;
   choose_decimals(angle_decimals, position_decimals);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "motex/core/csv.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/trimmed.h"
@@ -15,26 +16,9 @@ using Json = nlohmann::ordered_json;
 
 bool is_json(const std::filesystem::path& path) { return path.extension() == ".json" || path.extension() == ".JSON"; }
 
-/// The cells of a line; "" within quotes is a quote.
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells{""};
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      cells.back() += line[i++];
-    else if (line[i] == '"')
-      quoted = !quoted;
-    else if (line[i] == ',' && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += line[i];
-  }
-  for (std::string& cell : cells) cell = std::string(trimmed(cell));
-  return cells;
-}
-
 JointNamePairs read_csv(std::string_view bytes, const std::string& name) {
   JointNamePairs pairs;
+  std::vector<std::string> cells;
   std::int64_t number = 0;
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   while (!bytes.empty()) {
@@ -42,7 +26,7 @@ JointNamePairs read_csv(std::string_view bytes, const std::string& name) {
     bytes.remove_prefix(std::min(bytes.find('\n'), bytes.size() - 1) + 1);
     ++number;
     if (line.empty() || line[0] == '#') continue;
-    const std::vector<std::string> cells = cells_of(line);
+    csv_cells(line, ',', cells);
     if (cells.size() != 2) throw ParseError(name, ParseError::Unit::kLine, number, "expected 'target,source'");
     if (pairs.empty() && cells[0] == "target" && cells[1] == "source") continue;
     if (!cells[0].empty() && !cells[1].empty()) pairs.emplace_back(cells[0], cells[1]);
@@ -60,13 +44,6 @@ JointNamePairs read_json(std::string_view bytes, const std::string& name) {
     if (!source.get_ref<const std::string&>().empty()) pairs.emplace_back(target, source.get<std::string>());
   }
   return pairs;
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"#\n") == text.npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
 }
 
 }  // namespace

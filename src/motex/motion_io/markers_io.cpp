@@ -3,16 +3,15 @@
 #include "motex/motion_io/markers_io.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 
+#include "motex/core/csv.h"
 #include "motex/core/extension.h"
 #include "motex/core/files.h"
 #include "motex/core/options_check.h"
 #include "motex/motion/up_axis.h"
 #include "motex/motion_io/c3d.h"
-#include "motex/motion_io/csv_text.h"
 #include "motex/motion_io/npz.h"
 #include "motex/motion_io/text_scanner.h"
 #include "motex/motion_io/trc.h"
@@ -23,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Kind { kNone, kC3d, kTrc };
+
+constexpr int kPlaces = 9;  // of a CSV
 
 // A C3D begins with two bytes alone: the block of its parameters and 80. The third is the low byte of a count.
 Kind kind_of(std::string_view start, const std::string& name) {
@@ -116,10 +117,10 @@ std::string write_csv_bytes(const MarkerSet& markers) {
     for (const char* axis : {".X", ".Y", ".Z"}) text += "," + csv_cell(name + axis);
   text += '\n';
   for (Index t = 0; t < markers.num_frames(); ++t) {
-    append_csv_number(text += std::to_string(t) + ",", static_cast<double>(t) * markers.frame_time_secs);
+    append_rounded(text += std::to_string(t) + ",", static_cast<double>(t) * markers.frame_time_secs, kPlaces);
     for (Index c = 0; c < markers.positions.cols(); ++c) {
       text += ',';
-      if (!std::isnan(markers.positions(t, c))) append_csv_number(text, markers.positions(t, c));
+      if (!std::isnan(markers.positions(t, c))) append_rounded(text, markers.positions(t, c), kPlaces);
     }
     text += '\n';
   }

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "motex/motion_io/tables.h"
 
-#include <charconv>
-#include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "motex/core/csv.h"
 #include "motex/core/files.h"
-#include "motex/motion_io/csv_text.h"
 #include "motex/motion_io/euler_channels.h"
 
 namespace motex {
 namespace {
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
+constexpr int kPlaces = 9;
 
 }  // namespace
 
@@ -31,15 +30,16 @@ std::string write_csv_bytes(const Clip& clip) {
   }
   text += '\n';
   for (Index t = 0; t < clip.num_frames(); ++t) {
-    append_csv_number(text += std::to_string(t) + ",", static_cast<double>(t) * clip.frame_time_secs);
+    append_rounded(text += std::to_string(t) + ",", static_cast<double>(t) * clip.frame_time_secs, kPlaces);
     for (int j = 0; j < clip.skeleton.num_joints(); ++j) {
       const auto& own = channels[static_cast<std::size_t>(j)];
       if (own.empty()) continue;
       const Vector3& angles = tracks[static_cast<std::size_t>(j)].next(clip.rotation(t, j));
       int num_angles = 0;
       for (const Channel c : own)
-        append_csv_number(
-            text += ',', is_position(c) ? clip.translations(t, 3 * j + axis_of(c)) : angles[num_angles++] * kDegPerRad);
+        append_rounded(text += ',',
+                       is_position(c) ? clip.translations(t, 3 * j + axis_of(c)) : angles[num_angles++] * kDegPerRad,
+                       kPlaces);
     }
     text += '\n';
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "motex/core/csv.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/trimmed.h"
@@ -192,11 +193,6 @@ class TrcReader {
   double time_step_ = 0, most_bytes_ = 0;
 };
 
-void append(std::string& text, double value) {
-  char buffer[40];
-  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
-}
-
 struct TrcUnit {
   const char* name;
   double factor;  ///< of the numbers
@@ -222,7 +218,7 @@ std::string write_trc_bytes(const MarkerSet& markers) {
   const TrcUnit unit = unit_of(markers);
   const std::string frames = std::to_string(markers.num_frames());
   std::string rate;
-  append(rate, markers.frame_rate());
+  append_number(rate, markers.frame_rate());
   std::string text = "PathFileType\t4\t(X/Y/Z)\t" + markers.name + ".trc\n";
   text += "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n";
   text += rate + "\t" + rate + "\t" + frames + "\t" + std::to_string(markers.num_markers()) + "\t" + unit.name + "\t" +
@@ -237,11 +233,11 @@ std::string write_trc_bytes(const MarkerSet& markers) {
   }
   text += "\n" + axes + "\n\n";
   for (Index t = 0; t < markers.num_frames(); ++t) {
-    append(text += std::to_string(t + 1) + "\t", static_cast<double>(t) * markers.frame_time_secs);
+    append_number(text += std::to_string(t + 1) + "\t", static_cast<double>(t) * markers.frame_time_secs);
     for (Index c = 0; c < markers.positions.cols(); ++c) {
       text += '\t';
       const double value = markers.positions(t, c) * unit.factor;
-      if (!std::isnan(value)) append(text, value);
+      if (!std::isnan(value)) append_number(text, value);
     }
     text += '\n';
   }

@@ -9,14 +9,13 @@
 #include <limits>
 #include <optional>
 
+#include "motex/core/csv.h"
 #include "motex/core/error.h"
 #include "motex/core/lowered.h"
 #include "motex/core/trimmed.h"
 
 namespace motex {
 namespace {
-
-using Cells = std::vector<std::string_view>;
 
 /// The number of a cell, NaN for a gap; nothing for other text.
 std::optional<double> number(std::string_view cell) {
@@ -37,17 +36,6 @@ char separator_of(std::string_view line) {
   for (const char c : {';', '\t', ','})
     if (line.find(c) != line.npos) return c;
   return ' ';
-}
-
-Cells cells_of(std::string_view line, char separator) {
-  Cells out;
-  while (true) {
-    const std::size_t end = std::min(line.find(separator), line.size());
-    const std::string_view cell = trimmed(line.substr(0, end), " \t\r\"");
-    if (separator != ' ' || !cell.empty()) out.push_back(cell);
-    if (end == line.size()) return out;
-    line.remove_prefix(end + 1);
-  }
 }
 
 /// Tells which frame it is, not what is seen in it (those of motex people signals too).
@@ -93,6 +81,7 @@ SeriesTable parse_series_csv(std::string_view text, const std::string& name, con
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   SeriesTable table;
   std::vector<double> values;
+  std::vector<std::string> cells;
   std::vector<bool> is_text;  // of a column: its first cell under a heading
   std::size_t width = 0, num_finite = 0;
   char separator = 0;
@@ -108,12 +97,12 @@ SeriesTable parse_series_csv(std::string_view text, const std::string& name, con
     if (line.empty() || line.front() == '#') continue;
     const bool is_first = width == 0;
     if (is_first) separator = separator_of(line);
-    const Cells cells = cells_of(line, separator);
+    csv_cells(line, separator, cells);
     if (is_first) {
       width = cells.size();
-      const bool is_heading = std::any_of(cells.begin(), cells.end(), [](auto cell) { return !number(cell); });
+      const bool is_heading = std::any_of(cells.begin(), cells.end(), [](const auto& cell) { return !number(cell); });
       for (std::size_t k = 0; k < width; ++k)
-        table.names.push_back(is_heading && !cells[k].empty() ? std::string(cells[k]) : std::to_string(k + 1));
+        table.names.push_back(is_heading && !cells[k].empty() ? cells[k] : std::to_string(k + 1));
       if (is_heading) continue;
     }
     if (cells.size() != width)
@@ -121,7 +110,7 @@ SeriesTable parse_series_csv(std::string_view text, const std::string& name, con
            std::to_string(width));
     for (std::size_t k = is_text.size(); k < width; ++k) is_text.push_back(width > 1 && !number(cells[k]));
     for (std::size_t k = 0; k < width; ++k) {
-      const std::string_view cell = cells[k];
+      const std::string& cell = cells[k];
       const std::optional<double> value = is_text[k] ? std::numeric_limits<double>::quiet_NaN() : number(cell);
       if (!value) fail(quoted(cell) + " is no number");
       values.push_back(*value);

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "motex/core/csv.h"
 #include "motex/plot/charts.h"
 #include "motex/plot/colour.h"
 
@@ -22,13 +23,6 @@ std::string number(double value) {
   std::array<char, 32> text;
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9);
   return {text.data(), end.ptr};
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
 }
 
 StripPlot motif_strip(const PeopleTexture& texture) {
@@ -75,7 +69,7 @@ std::string signals_csv(const PeopleTexture& texture, const PeopleSignals& signa
   for (const Take& take : texture.takes)
     for (int t = take.frames.start; t < take.frames.end(); ++t) {
       const auto i = static_cast<std::size_t>(t);
-      out += std::to_string(t) + "," + quoted(take.source) + "," +
+      out += std::to_string(t) + "," + csv_cell(take.source) + "," +
              std::to_string(take.source_start + t - take.frames.start) + "," + std::to_string(take.person) +
              (take.mirrored ? ",1" : ",0") + (texture.silhouettes[i].empty() ? ",0" : ",1");
       for (const Signal& signal : signals.signals) out += "," + number(signal.values[i]);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "motex/core/csv.h"
 #include "motex/core/error.h"
 #include "motex/core/lowered.h"
 #include "motex/core/trimmed.h"
@@ -26,17 +27,8 @@ const std::array<std::vector<std::string_view>, kNumColumns> kNames{{{"frame", "
                                                                      {"scale", "size", "sigma"},
                                                                      {"angle", "theta"}}};
 
+constexpr int kPlaces = 4;
 constexpr std::string_view kBlanks = " \t\r\"";  // around a cell
-
-std::vector<std::string_view> split(std::string_view line, char separator) {
-  std::vector<std::string_view> words;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(separator, at), line.size());
-    words.push_back(trimmed(line.substr(at, end - at), kBlanks));
-    at = end + 1;
-  }
-  return words;
-}
 
 class TableReader {
  public:
@@ -45,15 +37,14 @@ class TableReader {
   std::vector<Track> read() {
     read_heading(true);
     std::map<std::int64_t, Track> tracks;
-    for (std::vector<std::string_view> words; next_row(words);)
-      tracks[whole(words, kId)].points.push_back(point_of(words));
+    for (std::vector<std::string> words; next_row(words);) tracks[whole(words, kId)].points.push_back(point_of(words));
     return sorted(tracks);
   }
 
   std::vector<TrackPoint> read_points() {
     read_heading(false);
     std::vector<TrackPoint> points;
-    for (std::vector<std::string_view> words; next_row(words);) points.push_back(point_of(words));
+    for (std::vector<std::string> words; next_row(words);) points.push_back(point_of(words));
     return points;
   }
 
@@ -71,17 +62,17 @@ class TableReader {
     return true;
   }
 
-  bool next_row(std::vector<std::string_view>& words) {
+  bool next_row(std::vector<std::string>& words) {
     std::string_view line;
     while (next_line(line))
       if (!trimmed(line, kBlanks).empty() && line[0] != '#') {
-        words = split(line, separator_);
+        csv_cells(line, separator_, words);
         return true;
       }
     return false;
   }
 
-  TrackPoint point_of(const std::vector<std::string_view>& words) const {
+  TrackPoint point_of(const std::vector<std::string>& words) const {
     TrackPoint point;
     point.frame = whole(words, kFrame);
     point.x = number(words, kX);
@@ -102,9 +93,8 @@ class TableReader {
         break;
       }
     std::vector<std::string> heading;
-    for (const std::string_view word : split(line, separator_)) {
-      heading.push_back(lowered(word.substr(word.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0)));
-    }
+    csv_cells(line.substr(line.starts_with("\xEF\xBB\xBF") ? 3 : 0), separator_, heading);
+    for (std::string& word : heading) word = lowered(word);
     for (std::size_t column = 0; column < kNumColumns; ++column) {
       places_[column] = -1;
       for (const std::string_view known : kNames[column])
@@ -117,18 +107,18 @@ class TableReader {
     }
   }
 
-  double number(const std::vector<std::string_view>& words, Column column) const {
+  double number(const std::vector<std::string>& words, Column column) const {
     const auto place = static_cast<std::size_t>(places_[column]);
     if (place >= words.size()) fail("the line has too few columns");
-    const std::string_view word = words[place];
+    const std::string& word = words[place];
     double value = 0;
     const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (code != std::errc() || end != word.data() + word.size() || !std::isfinite(value) || std::abs(value) > 1e15)
-      fail("'" + std::string(word.substr(0, 40)) + "' is not a number");
+      fail("'" + word.substr(0, 40) + "' is not a number");
     return value;
   }
 
-  std::int64_t whole(const std::vector<std::string_view>& words, Column column) const {
+  std::int64_t whole(const std::vector<std::string>& words, Column column) const {
     const double value = number(words, column);
     if (value != std::floor(value)) fail(std::string(kNames[column][0]) + " must be a whole number");
     return static_cast<std::int64_t>(value);
@@ -169,15 +159,10 @@ std::vector<TrackPoint> parse_points_csv(std::string_view text, const std::strin
 void TrackCsv::append(std::int64_t track, const TrackPoint& point, std::string& text) {
   if (!is_inside(point.x, point.y, width_, height_)) return;
   ++num_rows_;
-  std::array<char, 32> word{};
-  for (const std::int64_t whole : {track, point.frame}) {
-    text.append(word.data(), std::to_chars(word.data(), word.data() + word.size(), whole).ptr);
-    text += ',';
-  }
+  for (const std::int64_t whole : {track, point.frame}) text += std::to_string(whole) + ',';
   const std::array<double, 5> numbers{point.x, point.y, point.scale, point.angle, point.amplitude};
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const double rounded = std::round(numbers[k] * 1e4) / 1e4 + 0.0;  // no "-0"
-    text.append(word.data(), std::to_chars(word.data(), word.data() + word.size(), rounded).ptr);
+    append_rounded(text, numbers[k], kPlaces);
     text += k + 1 < numbers.size() ? ',' : '\n';
   }
 }

@@ -3,13 +3,12 @@
 #include "motex/project/trackmate_xml.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <string_view>
 
+#include "motex/core/csv.h"
 #include "motex/core/xml_escape.h"
 #include "motex/particles/track_score.h"
 
@@ -18,11 +17,7 @@ namespace {
 
 constexpr const char* kHeading = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 
-std::string number(double value) {
-  std::array<char, 32> word{};
-  const double rounded = std::round(value * 1e6) / 1e6 + 0.0;  // no "-0"
-  return {word.data(), std::to_chars(word.data(), word.data() + word.size(), rounded).ptr};
-}
+std::string number(double value) { return rounded_text(value, 6); }
 std::string number(std::int64_t value) { return std::to_string(value); }
 std::string number(std::size_t value) { return std::to_string(value); }
 std::string number(int value) { return std::to_string(value); }
