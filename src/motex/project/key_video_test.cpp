@@ -142,6 +142,40 @@ TEST_F(KeyVideo, AShotThatCannotBeKeyedIsSaidAndEmpty) {
   EXPECT_THROW(KeyedFootage(write_shots(folder_ / "moving.mkv", {{kBlue, 20, true}})), InvalidInput);
 }
 
+/// A block before leaves that do not move; it crosses the picture, or sways in one place.
+fs::path write_natural(const fs::path& path, bool crosses) {
+  VideoWriter writer(path, 95, 71);
+  for (int t = 0; t < 24; ++t) {
+    Image image(95, 71);
+    for (int y = 0; y < 71; ++y)
+      for (int x = 0; x < 95; ++x) {
+        const auto hash = static_cast<std::uint32_t>(x / 4 * 7919 + y / 4 * 104729) * 2654435761U;
+        const auto level = static_cast<std::uint8_t>(hash >> 24U);
+        image.at(x, y) = {level, static_cast<std::uint8_t>(255 - level), level, 255};
+      }
+    const int left = crosses ? 3 * t : 40 + static_cast<int>(4 * std::sin(0.6 * t));
+    for (int y = 20; y < 60; ++y)
+      for (int x = left; x < left + 20; ++x) image.at(x, y) = {180, 40, 60, 255};
+    writer.write(image);
+  }
+  writer.finish();
+  return path;
+}
+
+TEST_F(KeyVideo, AnActorWhoNeverLeavesHisPlaceInANaturalSceneIsSaid) {
+  KeyFootageOptions options;
+  options.plate.screen = BackgroundChoice::kNatural;
+  for (const bool crosses : {true, false}) {
+    std::string warnings;
+    JobContext job;
+    job.on_warning = [&](const std::string& warning) { warnings += warning; };
+    KeyedFootage footage(write_natural(folder_ / "natural.mkv", crosses), options, job);
+    for (KeyedFrame frame; footage.next(frame);) {
+    }
+    EXPECT_EQ(warnings.find("--plate") != std::string::npos, !crosses) << warnings;
+  }
+}
+
 TEST_F(KeyVideo, APartOfTheVideoAlone) {
   KeyFootageOptions options;
   options.frames = {7, 9};

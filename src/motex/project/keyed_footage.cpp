@@ -9,6 +9,7 @@
 #include "motex/core/error.h"
 #include "motex/core/files.h"
 #include "motex/core/parallel.h"
+#include "motex/core/quantile.h"
 #include "motex/image/png.h"
 
 namespace motex {
@@ -16,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kBatch = 8;  // frames at a time, for any number of threads
+constexpr double kStays = 1.5;  // widths: who is never seen on more of the picture stands in one place
+constexpr int kBatch = 8;       // frames at a time, for any number of threads
 
 Image read_png(const fs::path& path) { return decode_png(read_file(path.string()), path.string()); }
 
@@ -184,9 +186,25 @@ void KeyedFootage::take_notes(const KeyedFrame& frame) {
   double area = 0;
   for (const PremultipliedRgba& pixel : frame.sprite.pixels) area += pixel[3];
   report_.mean_area += (area / 255 / size - report_.mean_area) / static_cast<double>(report_.num_frames);
+  if (!frame.sprite.empty()) {
+    report_.left = std::min(report_.left, frame.sprite.left);
+    report_.right = std::max(report_.right, frame.sprite.left + frame.sprite.width - 1);
+    report_.widths.push_back(frame.sprite.width);
+  }
   if (covered_border(frame.sprite, info().width, info().height) <= 0.5) return;
   ++report_.num_crowded;
   if (report_.first_crowded < 0) report_.first_crowded = frame.idx;
+}
+
+void KeyedFootage::tell_of_place() {
+  if (report_.widths.empty() || !first_plate_ || first_plate_->kind != ScreenKind::kNatural ||
+      !plate_picture_.pixels.empty())
+    return;
+  if (report_.right - report_.left + 1 > kStays * quantile(report_.widths, 0.9)) return;
+  job_.warn(video_.string() + ": who is in it stays between x " + std::to_string(report_.left) + " and " +
+            std::to_string(report_.right) +
+            "; what stood still there most of the time is taken for the background and missing in the matte: give a "
+            "picture of the empty scene (--plate), or film the actor coming in");
 }
 
 bool KeyedFootage::next(KeyedFrame& frame) {
@@ -194,6 +212,7 @@ bool KeyedFootage::next(KeyedFrame& frame) {
     while (ahead_.size == 0) {
       if (!enter_next_shot()) {
         if (!first_plate_ && !trouble_.empty()) throw InvalidInput(trouble_);
+        tell_of_place();
         return false;
       }
       fill(ahead_);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,7 +45,9 @@ struct KeyFootageReport {
   std::int64_t num_empty = 0;    ///< frames in which nobody is
   std::int64_t num_crowded = 0;  ///< frames in which more than half of the border is covered: the scene changed
   std::int64_t first_crowded = -1;
-  double mean_area = 0;  ///< of alpha, share of the frame
+  double mean_area = 0;                                    ///< of alpha, share of the frame
+  int left = std::numeric_limits<int>::max(), right = -1;  ///< first and last column where someone was seen
+  std::vector<double> widths;                              ///< of what was seen in each frame with someone, pixels
 };
 
 /// A video keyed frame by frame in two passes: the first looks for hard cuts and takes frames for the clean plate as
@@ -70,7 +73,7 @@ class KeyedFootage {
   const ShotReport& shots() const { return scan_.report; }
   /// Of the first shot that has one; nothing where the footage has alpha of its own.
   const CleanPlate* plate() const { return first_plate_ ? &*first_plate_ : nullptr; }
-  /// The next frame; false after the last.
+  /// The next frame; false after the last, when it is said whether an actor before a natural scene stayed in one place.
   bool next(KeyedFrame& frame);
   const KeyFootageReport& report() const { return report_; }
 
@@ -88,6 +91,7 @@ class KeyedFootage {
   void fill(Batch& batch);
   void key_batch();
   void take_notes(const KeyedFrame& frame);
+  void tell_of_place();
 
   std::filesystem::path video_;
   KeyFootageOptions options_;
