@@ -194,6 +194,7 @@ Keyer::Keyer(CleanPlate plate, const KeyOptions& options, const Mask& garbage) :
   const bool is_coloured = plate.kind == ScreenKind::kGreen || plate.kind == ScreenKind::kBlue;
   // A coloured screen in shadow keeps its colour; white and grey clothes look like a plain one in other light.
   if (is_coloured) shared->limits.light = {0.35F, 0.15F};
+  shared->limits.open_small_holes = is_coloured;
   if (!is_coloured) shared->limits.min_hole = 0.0003 * static_cast<double>(shared->grid.inverse_variances.size());
   shared->screen_channel = plate.kind == ScreenKind::kGreen ? 1 : plate.kind == ScreenKind::kBlue ? 2 : -1;
   state_->canvas.resize(plate.picture.pixels.size());

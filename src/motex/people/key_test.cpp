@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -21,7 +22,7 @@ constexpr int kWidth = 161, kHeight = 121;  // odd on purpose
 struct Stage {
   Rgba screen{40, 180, 60, 255};
   Rgba disc{180, 60, 50, 255};
-  double noise = 2, spill = 0;
+  double noise = 2, spill = 0, hole = 6;
 
   LevelTriple background(int x, int y) const {
     const double u = x / 80.0 - 1, v = y / 60.0 - 1, light = 1 - 0.2 * u * u - 0.2 * v * v;
@@ -30,9 +31,9 @@ struct Stage {
   }
   static double centre(int t) { return 80 + 30 * std::sin(0.35 * t); }
   /// Share of the pixel that the disc (radius 22, with a hole of radius 6) covers.
-  static double alpha(int x, int y, int t) {
+  static double alpha(int x, int y, int t, double hole = 6) {
     const double distance = std::hypot(x - centre(t), y - 60.0);
-    return std::clamp(22.5 - distance, 0.0, 1.0) * std::clamp(distance - 6, 0.0, 1.0);
+    return std::clamp(22.5 - distance, 0.0, 1.0) * std::clamp(distance - hole, 0.0, 1.0);
   }
   Image frame(int t) const {
     Rng rng(static_cast<std::uint64_t>(t) + 1);
@@ -40,7 +41,7 @@ struct Stage {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         const LevelTriple back = background(x, y);
-        const double a = alpha(x, y, t);
+        const double a = alpha(x, y, t, hole);
         const auto mixed = [&](double front, double behind) {
           front += spill * (behind - front);
           return static_cast<std::uint8_t>(std::clamp(a * front + (1 - a) * behind + noise * rng.normal(), 0.0, 255.0));
@@ -86,6 +87,36 @@ TEST(Keyer, FindsSoftMattesOnGreenBlueAndPlainScreens) {
       const Sprite sprite = keyer.key(frames[static_cast<std::size_t>(t)]);
       EXPECT_LT(matte_error(sprite, t), 0.0012);
     }
+  }
+}
+
+/// Mean of 5 × 5 pixels, as a lens or a codec softens; a margin stays as it is.
+Image blurred(const Image& image) {
+  Image out = image;
+  for (int y = 2; y < image.height - 2; ++y)
+    for (int x = 2; x < image.width - 2; ++x) {
+      std::array<int, 3> sum{};
+      for (int k = 0; k < 25; ++k) {
+        const Rgba& pixel = image.at(x + k % 5 - 2, y + k / 5 - 2);
+        sum[0] += pixel.r, sum[1] += pixel.g, sum[2] += pixel.b;
+      }
+      const auto mean = [](int total) { return static_cast<std::uint8_t>((total + 12) / 25); };
+      out.at(x, y) = {mean(sum[0]), mean(sum[1]), mean(sum[2]), 255};
+    }
+  return out;
+}
+
+TEST(Keyer, ABlurredSmallHoleStaysOpen) {
+  Stage stage;
+  stage.hole = 4;
+  std::vector<Image> frames;
+  for (const Image& frame : stage.frames(24)) frames.push_back(blurred(frame));
+  Keyer keyer(estimate_clean_plate(frames));
+  for (int t = 0; t < 24; ++t) {
+    const Image keyed = to_image(keyer.key(frames[static_cast<std::size_t>(t)]), kWidth, kHeight);
+    const int x = static_cast<int>(std::lround(Stage::centre(t)));
+    EXPECT_LT(keyed.at(x, 60).a, 60) << t;
+    EXPECT_GT(keyed.at(x + 12, 60).a, 250) << t;
   }
 }
 

@@ -15,7 +15,11 @@ constexpr float kCertain = 3;     // times the limit: squares that show the acto
 constexpr int kGrowth = 3;        // squares; how far from these less different ones are believed
 constexpr float kTrace = 0.002F;  // of the mean difference of what is certain: what differs less is blur or ringing
 constexpr double kFilled = 0.7;   // of the limit: holes that differ as much on average are no background
-constexpr double kFaint = 0.015;  // of the largest part's mean difference: what differs less is a trace of light
+constexpr float kPale = 0.02F;    // of the mean difference of what is certain: seven tenths or more of it is background
+constexpr float kEmpty = 0.004F;  // likewise: all of it is
+constexpr int kSmallHole = 100;   // squares; larger holes have an inside that blur does not reach
+constexpr double kEmptyShare = 0.15;  // of the squares of a small hole
+constexpr double kFaint = 0.015;      // of the largest part's mean difference: what differs less is a trace of light
 
 std::size_t size(int n) { return static_cast<std::size_t>(n); }
 
@@ -173,6 +177,42 @@ void tidy(const MatteGridLimits& limits, MatteGrid& grid) {
   }
 }
 
+/// Opens small holes again, over which blur and the filling of holes have gone: enclosed places that differ little from
+/// a coloured screen, some of them hardly at all.
+void open_small_holes(const MatteGridLimits& limits, MatteGrid& grid) {
+  const BoundingBox& box = grid.box;
+  Mask& pale = grid.pale;
+  pale.width = box.width(), pale.height = box.height();
+  pale.pixels.resize(size(pale.width) * size(pale.height));
+  const float limit = kPale * grid.contrast;
+  for (int y = 0; y < pale.height; ++y) {
+    const std::size_t row = grid.sums.index(box.left, box.top + y);
+    for (int x = 0; x < pale.width; ++x) {
+      const std::size_t i = row + size(x);
+      pale.at(x, y) = grid.actor.pixels[i] == 0 || grid.differences[i] < limit ? 1 : 0;
+    }
+  }
+  find_regions(pale, grid.regions);
+  const std::vector<MaskRegion>& regions = grid.regions.regions;
+  const auto may_be_hole = [&](const RegionRun& run) {
+    const MaskRegion& region = regions[size(run.region)];
+    return region.value && !region.at_border && region.area <= kSmallHole;
+  };
+  const float empty = std::max(static_cast<float>(limits.difference), kEmpty * grid.contrast);
+  std::vector<double>& num_empty = grid.difference_sums;
+  num_empty.assign(regions.size(), 0);
+  for (const RegionRun& run : grid.regions.runs) {
+    if (!may_be_hole(run)) continue;
+    const float* row = grid.differences.data() + grid.sums.index(box.left, box.top + run.y);
+    num_empty[size(run.region)] +=
+        static_cast<double>(std::count_if(row + run.first, row + run.last + 1, [&](float d) { return d < empty; }));
+  }
+  for (const RegionRun& run : grid.regions.runs)
+    if (may_be_hole(run) &&
+        num_empty[size(run.region)] >= kEmptyShare * static_cast<double>(regions[size(run.region)].area))
+      std::fill_n(&grid.actor.at(box.left + run.first, box.top + run.y), run.last - run.first + 1, std::uint8_t{0});
+}
+
 /// Depth of each square by wearing away from where the actor is not; beyond the frame he goes on.
 void find_depths(MatteGrid& grid) {
   const BoundingBox box = grid.rim_box();
@@ -284,6 +324,7 @@ void find_actor(const Image& frame, const PlateGrid& plate, const MatteGridLimit
   grow(limits, grid);
   tidy(limits, grid);
   if (grid.box.empty()) return;
+  if (limits.open_small_holes) open_small_holes(limits, grid);
   find_depths(grid);
   carry_colours(grid);
 }

@@ -24,10 +24,11 @@ struct PlateGrid {
 PlateGrid plate_grid(const CleanPlate& plate, const Mask& garbage);
 
 struct MatteGridLimits {
-  double difference = 20;  ///< squares from here on may show the actor, those from three times as much on do
-  double min_area = 16;    ///< squares; smaller loose parts are specks
-  double min_hole = 2;     ///< squares; smaller holes are filled
-  LightRange light;        ///< that the background may lie in
+  double difference = 20;         ///< squares from here on may show the actor, those from three times as much on do
+  double min_area = 16;           ///< squares; smaller loose parts are specks
+  double min_hole = 2;            ///< squares; smaller holes are filled
+  bool open_small_holes = false;  ///< where blur went over them: on a coloured screen
+  LightRange light;               ///< that the background may lie in
 };
 
 /// Where the actor is in one frame, in squares of 2 × 2 pixels. Kept between frames it allocates nothing.
@@ -55,6 +56,7 @@ struct MatteGrid {
   BoundingBox rim_box() const;
 
   MaskRegions regions;  // scratch, like all below
+  Mask pale;
   std::vector<double> difference_sums;
   std::vector<std::uint8_t> level, next_level, line;
   std::vector<std::array<float, 4>> weighted, line_sums, cells;
