@@ -3,7 +3,6 @@
 #include "motex/people/cut_quality.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "motex/core/error.h"
 #include "motex/image/ssim.h"
@@ -59,16 +58,7 @@ CutQuality cut_quality(const std::vector<Sprite>& frames, const SecondDifference
   CutQuality quality;
   std::vector<Silhouette> silhouettes;
   for (const Sprite& frame : frames) silhouettes.push_back(measure_silhouette(frame));
-  CutSmoothness& worst = quality.smoothness;
-  for (std::size_t t = 1; t + 1 < frames.size(); ++t) {
-    const Silhouette &a = silhouettes[t - 1], &b = silhouettes[t], &c = silhouettes[t + 1];
-    const auto second = [](double before, double now, double after) { return before - 2 * now + after; };
-    worst.area = std::max(worst.area, std::abs(second(a.area, b.area, c.area)) / scales.area);
-    worst.aspect = std::max(worst.aspect, std::abs(second(a.aspect(), b.aspect(), c.aspect())) / scales.aspect);
-    worst.centroid = std::max(worst.centroid, std::hypot(second(a.centroid_x, b.centroid_x, c.centroid_x),
-                                                         second(a.centroid_y, b.centroid_y, c.centroid_y)) /
-                                                  scales.centroid);
-  }
+  quality.smoothness = film_smoothness(silhouettes, scales);
   const std::size_t last = frames.size() - 1;
   quality.ssim = std::min(sprite_ssim(frames[1], frames[2]), sprite_ssim(frames[last - 2], frames[last - 1]));
   for (std::size_t t = 1; t + 2 < frames.size(); ++t)

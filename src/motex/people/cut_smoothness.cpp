@@ -45,6 +45,19 @@ Signals mixed(const Signals& a, const Signals& b, double weight) {
   return mix;
 }
 
+CutSmoothness largest_second_differences(const std::vector<Signals>& film, const SecondDifferenceScales& scales) {
+  CutSmoothness worst;
+  for (std::size_t t = 1; t + 1 < film.size(); ++t) {
+    const Signals &a = film[t - 1], &b = film[t], &c = film[t + 1];
+    worst.area = std::max(worst.area, second_difference(a.area, b.area, c.area) / scales.area);
+    worst.aspect = std::max(worst.aspect, second_difference(a.aspect, b.aspect, c.aspect) / scales.aspect);
+    worst.centroid =
+        std::max(worst.centroid,
+                 std::hypot(second_difference(a.x, b.x, c.x), second_difference(a.y, b.y, c.y)) / scales.centroid);
+  }
+  return worst;
+}
+
 double percentile_95(std::vector<double> values, double least) {
   return values.empty() ? least : std::max(quantile(std::move(values), 0.95), least);
 }
@@ -65,6 +78,12 @@ SecondDifferenceScales second_difference_scales(const PeopleTexture& texture) {
     }
   return {percentile_95(std::move(area), 1), percentile_95(std::move(centroid), 0.05),
           percentile_95(std::move(aspect), 1e-4)};
+}
+
+CutSmoothness film_smoothness(const std::vector<Silhouette>& silhouettes, const SecondDifferenceScales& scales) {
+  std::vector<Signals> film;
+  for (const Silhouette& silhouette : silhouettes) film.emplace_back(silhouette);
+  return largest_second_differences(film, scales);
 }
 
 CutSmoothness cut_smoothness(const PeopleTexture& texture, const SecondDifferenceScales& scales, int from, int to) {
@@ -107,16 +126,7 @@ CutSmoothness transition_smoothness(const PeopleTexture& texture, const SecondDi
     b.x += last.x - first.x, b.y += last.y - first.y;
     film.push_back(mixed(of(left, from - before + 1 + k), b, weight));
   }
-  smoothness = {};
-  for (std::size_t t = 1; t + 1 < film.size(); ++t) {
-    const Signals &a = film[t - 1], &b = film[t], &c = film[t + 1];
-    smoothness.area = std::max(smoothness.area, second_difference(a.area, b.area, c.area) / scales.area);
-    smoothness.aspect = std::max(smoothness.aspect, second_difference(a.aspect, b.aspect, c.aspect) / scales.aspect);
-    smoothness.centroid =
-        std::max(smoothness.centroid,
-                 std::hypot(second_difference(a.x, b.x, c.x), second_difference(a.y, b.y, c.y)) / scales.centroid);
-  }
-  return smoothness;
+  return largest_second_differences(film, scales);
 }
 
 const Take& take_of(const PeopleTexture& texture, int frame) {

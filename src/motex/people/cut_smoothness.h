@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "motex/people/people_texture.h"
 
 namespace motex {
@@ -19,6 +21,9 @@ struct SecondDifferenceScales {
   double area = 1, centroid = 1, aspect = 1;
 };
 SecondDifferenceScales second_difference_scales(const PeopleTexture& texture);
+
+/// Of silhouettes that follow one another in a film: the largest anywhere. 0 for fewer than three.
+CutSmoothness film_smoothness(const std::vector<Silhouette>& silhouettes, const SecondDifferenceScales& scales);
 
 /// Of a hard cut after which frame `to` follows frame `from`, the larger of the second differences at both. The
 /// centroid is carried over the cut (as films are drawn), so of it only the change of velocity counts. Infinite where a

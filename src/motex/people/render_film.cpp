@@ -11,6 +11,7 @@
 #include "motex/core/options_check.h"
 #include "motex/people/align_sprites.h"
 #include "motex/people/carried_placement.h"
+#include "motex/people/cut_smoothness.h"
 #include "motex/people/film_frames.h"
 #include "motex/people/transition.h"
 
@@ -42,6 +43,7 @@ class FilmRenderer::Playback {
         options_(options),
         job_(job),
         film_(film_frames(texture, edits)),
+        scales_(second_difference_scales(texture)),
         carried_(texture.width, texture.height) {
     check_options(options);
     if (sprites.num_frames() != texture.num_frames())
@@ -145,7 +147,7 @@ class FilmRenderer::Playback {
       frame.a.placement = carried_.placement_of(*frame.sprite_a);
       frame.b.placement = entering_.placement_of(*frame.sprite_b);
     }
-    transition_.emplace(texture_, std::move(frames), options_, job_.jobs);
+    transition_.emplace(texture_, scales_, std::move(frames), options_, job_.jobs);
     transition_->report().cut = cut;
     transition_->report().placement = entering;
     cuts_.push_back(transition_->report());
@@ -175,7 +177,7 @@ class FilmRenderer::Playback {
       return;
     }
     for (Transition::Frame& frame : frames) frame.a.placement = aim_->placement_of(*frame.sprite_a);
-    closing_.emplace(texture_, std::move(frames), options_, job_.jobs);
+    closing_.emplace(texture_, scales_, std::move(frames), options_, job_.jobs);
     closing_->report().cut = cut;
     cuts_.push_back(closing_->report());
   }
@@ -193,7 +195,7 @@ class FilmRenderer::Playback {
     const Transition& transition = closes ? *closing_ : *transition_;
     const int length = transition.report().transition_frames;
     const int k = static_cast<int>(now.weight * (length + 1) + 0.5) - 1;
-    Sprite sprite = transition.render(k);
+    Sprite sprite = transition.frame(k);
     if (k + 1 == length && !closes) carried_ = entering_;
     if (k + 1 == length) before_ = sprites_.sprite(now.next_frame), before_frame_ = now.next_frame;
     return sprite;
@@ -205,6 +207,7 @@ class FilmRenderer::Playback {
   RenderFilmOptions options_;
   JobContext job_;
   std::vector<FilmFrame> film_;
+  SecondDifferenceScales scales_;
   std::size_t position_ = 0;
   std::shared_ptr<const Sprite> before_;
   int before_frame_ = -1;

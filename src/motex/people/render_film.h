@@ -15,7 +15,7 @@
 
 namespace motex {
 
-/// How the frames of a transition are made; kAuto: by the least measured error.
+/// How the frames of a transition are made; kAuto: by the least measured error of those that are smooth.
 enum class TransitionRenderer { kAuto, kFieldMorph, kFlow, kCrossDissolve, kHardCut };
 /// "auto", "morph", "flow", "dissolve", "cut".
 const char* name_of(TransitionRenderer renderer);
@@ -32,13 +32,15 @@ struct RenderFilmOptions {
 
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
-    visit(Field{"renderer", "", "how the frames of a transition are made; auto: the one with the least error"},
+    visit(Field{"renderer", "",
+                "how the frames of a transition are made; auto: the one with the least error that is smooth"},
           self.renderer, Choices{{"auto", "morph", "flow", "dissolve", "cut"}});
     visit(
         Field{"lines", "", "feature lines of the morph: the outline and limbs, or the fixed edges of the bounding box"},
         self.lines, Choices{{"outline", "edges"}});
     visit(Field{"align", "", "put the second take where the first one is, and ease it back"}, self.align, Range{});
-    visit(Field{"max_error", "grey levels", "with a larger error of every renderer there is a hard cut"},
+    visit(Field{"max_error", "grey levels",
+                "with a larger error of every renderer there is a hard cut, where that is smooth"},
           self.max_error, Range{0, 255});
   }
 };

@@ -101,11 +101,36 @@ TEST(RenderFilm, TakesTheRendererWithTheLeastErrorAndSaysSo) {
   EXPECT_NEAR(cuts[0].placement.x, -17, 3);
   EXPECT_NEAR(cuts[0].placement.y, 3, 1);
   EXPECT_GT(cuts[0].num_lines, 15);
+}
 
+TEST(RenderFilm, CutsHardWhereNoRendererIsTrueEnoughButOnlyIfThatIsSmooth) {
+  const Footage footage;
   RenderFilmOptions strict;
   strict.max_error = 0;
-  film_of(footage, one_cut(6), strict, &cuts);
+  std::vector<CutReport> cuts;
+  EditList like;  // one wave later: nearly what would come anyway
+  like.shots = {{0, 6, -1}, {38, 39, -1}};
+  like.cuts = {{6, 38, 2}};
+  film_of(footage, like, strict, &cuts);
   EXPECT_EQ(cuts[0].renderer, TransitionRenderer::kHardCut);
+
+  film_of(footage, one_cut(6), strict, &cuts);
+  EXPECT_NE(cuts[0].renderer, TransitionRenderer::kHardCut);
+}
+
+TEST(RenderFilm, ARendererThatIsNotSmoothGivesWay) {
+  const Footage footage;
+  const SecondDifferenceScales scales = second_difference_scales(footage.texture);
+  const auto smoothness = [&](TransitionRenderer renderer, double max_error) {
+    RenderFilmOptions options;
+    options.renderer = renderer, options.max_error = max_error;
+    const std::vector<Sprite> film = film_of(footage, one_cut(6), options);
+    return cut_quality({film.begin() + 15, film.begin() + 25}, scales).smoothness.largest();
+  };
+  const double chosen = smoothness(TransitionRenderer::kAuto, 0), cut = smoothness(TransitionRenderer::kHardCut, 0);
+  const double dissolve = smoothness(TransitionRenderer::kCrossDissolve, 0);
+  EXPECT_GT(cut, 2 * dissolve);
+  EXPECT_LE(chosen, std::max(1.0, 1.25 * dissolve) + 0.05);
 }
 
 TEST(RenderFilm, IsSmootherThanAHardCutAndTruerThanADissolve) {
