@@ -69,7 +69,7 @@ KeyVideoReport key_video(const fs::path& video, const KeyFootageOptions& options
   KeyedFootage footage(video, options, job.part(0, 0.3));
   const VideoInfo& info = footage.info();
   const double rate = info.frames_per_sec > 0 ? info.frames_per_sec : 25;
-  VideoOutputs writers(outputs, info.width, info.height, {rate, backdrop == nullptr}, job);
+  VideoOutputs writers(outputs, info.width, info.height, {rate, backdrop == nullptr, false, info.pixel_aspect}, job);
   KeyVideoReport report;
   report.width = info.width, report.height = info.height;
   Image image;

@@ -33,6 +33,7 @@ ClipFrames load_video_clip(const std::filesystem::path& path, const LoadVideoCli
   ReadVideoOptions read;
   if (options.frames_per_sec > 0) read.frames_per_sec = options.frames_per_sec;
   VideoReader reader(path, read, job);
+  warn_of_oblong_pixels(reader.info(), job);
   if (options.first_frame > 0) reader.seek(options.first_frame);
   ClipFrames clip;
   clip.width = reader.info().width;

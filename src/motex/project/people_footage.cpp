@@ -198,6 +198,7 @@ PeopleFootage read_people_footage(const std::filesystem::path& video, const Peop
   key.cuts = options.cuts;
   key.shortest_shot = shortest;
   KeyedFootage keyed(video, key, job.part(0, kShareOfShots));
+  warn_of_oblong_pixels(keyed.info(), job);
   footage.shots = keyed.shots().shots, footage.flashes = keyed.shots().flashes;
   check_length(name, footage.shots.empty() ? 0 : footage.shots.back().end(), shortest);
   FootageOfPeople people(video.filename().string(), sink, shortest, footage);

@@ -24,6 +24,7 @@ struct SinkShape {
   double frames_per_sec = 25;
   bool alpha = false;
   bool for_storage = false;
+  double pixel_aspect = 1;
 };
 
 std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, const SinkShape& shape,

@@ -171,7 +171,7 @@ class LibavSink : public FrameSink {
     encoder_->pix_fmt = format_of_pixels_;
     encoder_->framerate = rate;
     encoder_->time_base = is_constant_rate() ? av_inv_q(rate) : kTick;
-    encoder_->sample_aspect_ratio = {1, 1};
+    encoder_->sample_aspect_ratio = av_d2q(shape_.pixel_aspect, 4096);
     encoder_->thread_count = kNumThreads;
     encoder_->flags |= AV_CODEC_FLAG_BITEXACT;
     const AVOutputFormat* muxer = av_guess_format(recipe_.muxer, nullptr, nullptr);
@@ -215,6 +215,7 @@ class LibavSink : public FrameSink {
     check(avcodec_parameters_from_context(stream_->codecpar, encoder_.get()), "the header");
     stream_->time_base = encoder_->time_base;
     stream_->avg_frame_rate = encoder_->framerate;
+    if (shape_.pixel_aspect != 1) stream_->sample_aspect_ratio = encoder_->sample_aspect_ratio;
     if (shape_.alpha) av_dict_set(&stream_->metadata, "alpha_mode", "1", 0);
     check(avformat_write_header(muxer_.get(), nullptr), "the header");
   }

@@ -158,6 +158,20 @@ TEST_F(VideoIo, FlatColoursKeepTheirValue) {
     }
 }
 
+TEST_F(VideoIo, TheShapeOfPixelsIsKept) {
+  for (const char* name : {"x.mp4", "x.mov", "x.mkv", "x.webm"}) {
+    write(name, moving_disc(3, 64, 48), {.pixel_aspect = 4.0 / 3});
+    const VideoInfo info = VideoReader(folder_ / name).info();
+    EXPECT_NEAR(info.pixel_aspect, 4.0 / 3, 0.01) << name;  // Matroska keeps whole pixels
+    std::string warning;
+    JobContext job;
+    job.on_warning = [&](const std::string& text) { warning = text; };
+    warn_of_oblong_pixels(info, job);
+    EXPECT_NE(warning.find("85 × 48"), std::string::npos) << warning;
+  }
+  EXPECT_THROW(write("x.mp4", moving_disc(3, 64, 48), {.pixel_aspect = 0}), InvalidInput);
+}
+
 TEST_F(VideoIo, AlphaIsKept) {
   const std::vector<Image> frames = moving_disc(4, 64, 48);
   expect_alpha_kept(frames, read(write("x.mov", frames, {.alpha = true})), 0);

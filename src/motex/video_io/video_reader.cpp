@@ -99,4 +99,12 @@ std::vector<std::string> readable_video_extensions() {
   return {".mp4", ".mov", ".webm", ".mkv", ".avi", ".m4v", ".mpg", ".ts", ".y4m", ".gif", ".tif", ".tiff", ".png"};
 }
 
+void warn_of_oblong_pixels(const VideoInfo& info, const JobContext& job) {
+  if (std::abs(info.pixel_aspect - 1) < 0.01) return;
+  const auto shown_width = static_cast<int>(std::lround(info.width * info.pixel_aspect));
+  job.warn(info.name + ": has pixels that are not square (it is shown " + std::to_string(shown_width) + " × " +
+           std::to_string(info.height) + "); they are taken as square, so what is made of it is shown " +
+           std::to_string(info.width) + " × " + std::to_string(info.height));
+}
+
 }  // namespace motex

@@ -71,4 +71,7 @@ class VideoReader {
 /// Extensions that VideoReader knows, for help texts: ".mp4", ….
 std::vector<std::string> readable_video_extensions();
 
+/// Warns where pixels that are not square will be taken as square.
+void warn_of_oblong_pixels(const VideoInfo& info, const JobContext& job);
+
 }  // namespace motex

@@ -25,6 +25,12 @@ void check_shape(const std::filesystem::path& path, const SinkShape& shape) {
                        " pixels cannot be written; sides go from 1 to " + std::to_string(kMaxSide));
   if (!std::isfinite(shape.frames_per_sec) || shape.frames_per_sec < 0.01 || shape.frames_per_sec > 1000)
     throw InvalidInput(path.string() + ": frames per second must be 0.01 … 1000");
+  if (!(shape.pixel_aspect >= 0.01 && shape.pixel_aspect <= 100))
+    throw InvalidInput(path.string() + ": the aspect of a pixel must be 0.01 … 100");
+}
+
+SinkShape shape_of(int width, int height, const WriteVideoOptions& options) {
+  return {width, height, options.frames_per_sec, options.alpha, options.for_storage, options.pixel_aspect};
 }
 
 std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job) {
@@ -36,8 +42,7 @@ std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const Si
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, int width, int height, const WriteVideoOptions& options,
                          const JobContext& job)
-    : VideoWriter(make_sink(path, {width, height, options.frames_per_sec, options.alpha, options.for_storage}, job),
-                  width, height, options.frames_per_sec, job) {}
+    : VideoWriter(make_sink(path, shape_of(width, height, options), job), width, height, options.frames_per_sec, job) {}
 
 VideoWriter::VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height, double frames_per_sec,
                          const JobContext& job)
@@ -45,7 +50,7 @@ VideoWriter::VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height,
 
 VideoWriter VideoWriter::to_bytes(std::string& bytes, const std::string& extension, int width, int height,
                                   const WriteVideoOptions& options, const JobContext& job) {
-  const SinkShape shape{width, height, options.frames_per_sec, options.alpha, options.for_storage};
+  const SinkShape shape = shape_of(width, height, options);
   const std::string name = "video in memory" + extension;
   check_shape(name, shape);
   return {make_libav_sink(bytes, name, shape, job), width, height, options.frames_per_sec, job};

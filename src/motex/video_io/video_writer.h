@@ -21,6 +21,7 @@ struct WriteVideoOptions {
   /// .mp4: for frames that are picked out again and worked on: a key frame every 15 frames, the smallest error rather
   /// than the best look, finer quality (crf 10).
   bool for_storage = false;
+  double pixel_aspect = 1;  ///< width of a pixel / its height, for players; pictures have no place for it
 };
 
 /// Writes a video frame by frame. The file appears under its name when finish() returns, and never otherwise.
