@@ -24,6 +24,7 @@ constexpr std::size_t kMaxBeginnings = 12;  // of a loop that are tried
 struct Step {
   int motif = -1;
   int num_frames = 0;
+  bool is_drawn = false;  // in free play: another motif does as well
 };
 
 std::string name_of(const PeopleTexture& texture, const Step& step) {
@@ -93,7 +94,7 @@ class StepList {
       const int last = steps_.empty() ? -1 : steps_.back().motif;
       if (last >= 0 && std::count(now.begin(), now.end(), 0.0) + 1 < static_cast<std::ptrdiff_t>(now.size()))
         now[static_cast<std::size_t>(last)] = 0;
-      steps_.push_back({static_cast<int>(rng_.weighted(now)), 0});
+      steps_.push_back({static_cast<int>(rng_.weighted(now)), 0, true});
       left -= mean_length(motif(steps_.back().motif));
     }
   }
@@ -150,7 +151,7 @@ class FilmPlan {
                        " frames: idle stretches are shorter and no cut joins them");
   }
 
-  std::vector<FilmState> go_on(FilmPlanner& planner, std::vector<FilmState> states, std::size_t first_step) const {
+  std::vector<FilmState> go_on(FilmPlanner& planner, std::vector<FilmState> states, std::size_t first_step) {
     for (std::size_t k = first_step; k < steps_.size(); ++k) {
       job_.check_cancelled();
       states = go_on_to(planner, states, static_cast<int>(k));
@@ -158,18 +159,45 @@ class FilmPlan {
     return states;
   }
 
-  /// Within the latency limit, or as soon as possible.
-  std::vector<FilmState> go_on_to(FilmPlanner& planner, const std::vector<FilmState>& from, int k) const {
+  std::vector<FilmState> go_on_to(FilmPlanner& planner, const std::vector<FilmState>& from, int k) {
+    Step& step = steps_[static_cast<std::size_t>(k)];
+    const Step &before = steps_[static_cast<std::size_t>(k) - 1], wanted = step;
+    std::vector<FilmState> states = ways_to(planner, from, k);
+    // A loop is planned from several beginnings, which have to agree on the steps.
+    for (const int motif : wanted.is_drawn && !options_.loop ? by_frequency(before.motif) : std::vector<int>{}) {
+      if (!states.empty()) break;
+      step.motif = motif;
+      penalties_[static_cast<std::size_t>(k)].clear();
+      states = ways_to(planner, from, k);
+    }
+    if (states.empty())
+      throw InvalidInput("there is no way from '" + name_of(texture_, before) + "' to '" + name_of(texture_, wanted) +
+                         "': no cut is good enough; allow more difference at cuts or add footage");
+    return states;
+  }
+
+  /// Motifs that are performed, the commonest first and the last one at the end.
+  std::vector<int> by_frequency(int last) const {
+    const std::vector<Motif>& motifs = texture_.alphabet.motifs;
+    std::vector<int> order;
+    for (std::size_t m = 0; m < motifs.size(); ++m)
+      if (!motifs[m].occurrences.empty()) order.push_back(static_cast<int>(m));
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      if ((a == last) != (b == last)) return b == last;
+      return motifs[static_cast<std::size_t>(a)].occurrences.size() >
+             motifs[static_cast<std::size_t>(b)].occurrences.size();
+    });
+    return order;
+  }
+
+  /// Within the latency limit, or as soon as possible; empty where no cut leads there.
+  std::vector<FilmState> ways_to(FilmPlanner& planner, const std::vector<FilmState>& from, int k) const {
     const Step& step = steps_[static_cast<std::size_t>(k)];
     for (int wait = max_wait_;; wait = std::min(2 * std::max(wait, 8), graph_.num_frames())) {
       std::vector<FilmState> states =
           step.motif >= 0 ? planner.go_on_to_motif(from, step.motif, k, wait, penalties_[static_cast<std::size_t>(k)])
                           : planner.go_on_to_idle(from, step.num_frames, k, wait);
-      if (!states.empty()) return states;
-      if (wait >= graph_.num_frames())
-        throw InvalidInput("there is no way from '" + name_of(texture_, steps_[static_cast<std::size_t>(k) - 1]) +
-                           "' to '" + name_of(texture_, step) +
-                           "': no cut is good enough; allow more difference at cuts or add footage");
+      if (!states.empty() || wait >= graph_.num_frames()) return states;
     }
   }
 

@@ -189,6 +189,11 @@ TEST(Direct, SaysWhatCannotBeDone) {
   } catch (const InvalidInput& error) {
     EXPECT_NE(std::string(error.what()).find("no way from 'raise' to 'high kick'"), std::string::npos) << error.what();
   }
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    DirectOptions options;
+    options.seed = seed;
+    EXPECT_EQ(performed(apart, directed(apart, "A, * x3", options).edits), "AAAA") << "free play takes what there is";
+  }
 }
 
 TEST(Director, PlaysForEverAndNeverRunsIntoTheEndOfATake) {
