@@ -43,7 +43,11 @@ WeightedDeck::WeightedDeck(std::vector<double> weights, const Rng& rng)
 
 std::size_t WeightedDeck::draw(std::int64_t n) const {
   const double place = offset_ + static_cast<double>(n) * (std::numbers::phi - 1);
-  const double wanted = (place - std::floor(place)) * cumulative_.back();
+  return at_share(place - std::floor(place));
+}
+
+std::size_t WeightedDeck::at_share(double share) const {
+  const double wanted = share * cumulative_.back();
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), wanted);
   return static_cast<std::size_t>(std::min(found, cumulative_.end() - 1) - cumulative_.begin());
 }

@@ -37,6 +37,8 @@ class WeightedDeck {
   WeightedDeck(std::vector<double> weights, const Rng& rng);
   bool empty() const { return cumulative_.empty(); }
   std::size_t draw(std::int64_t n) const;
+  /// The item at that share of the weights, 0 ≤ share < 1.
+  std::size_t at_share(double share) const;
 
  private:
   std::vector<double> cumulative_;

@@ -76,7 +76,6 @@ BirthProcess::BirthProcess(const TexturedMotion& model, const std::vector<CableF
       source_(cumulated(model, settings.source)),
       bandwidth_(model.maps.bandwidth > 0 ? model.maps.bandwidth
                                           : kUsualBandwidth * std::max(model.width, model.height)),
-      period_(settings.period),
       burst_rates_(burst_rates),
       singles_(0, 0, rng),
       bursts_(0, 0, rng),
@@ -90,12 +89,8 @@ BirthProcess::BirthProcess(const TexturedMotion& model, const std::vector<CableF
   });
   births_per_frame_ = total_of(items_) * settings.rate * settings.singles * settings.speed;
   bursts_per_frame_ = std::accumulate(burst_rates.begin(), burst_rates.end(), 0.0) * settings.rate;
-  begin_anew(rng);
-}
-
-void BirthProcess::begin_anew(const Rng& rng) {
-  singles_ = Arrivals(births_per_frame_, period_, rng.fork(0));
-  bursts_ = Arrivals(bursts_per_frame_, period_, rng.fork(1));
+  singles_ = Arrivals(births_per_frame_, settings.period, rng.fork(0));
+  bursts_ = Arrivals(bursts_per_frame_, settings.period, rng.fork(1));
   deck_ = WeightedDeck(rates_of(items_), rng.fork(2));
   burst_deck_ = WeightedDeck(burst_rates_, rng.fork(3));
 }
@@ -199,15 +194,31 @@ void BirthProcess::add_burst(std::int64_t frame, std::size_t which, Rng& rng, st
   }
 }
 
-void BirthProcess::at(std::int64_t frame, std::vector<ElementBirth>& births) {
-  if (!deck_.empty())
-    singles_.at(frame, [&](std::int64_t number, Rng& rng) {
-      births.push_back(birth_like(items_[deck_.draw(number)], rng));
-      births.back().frame = frame;
-      births.back().rng = rng.fork(7);
-    });
-  if (!burst_deck_.empty())
-    bursts_.at(frame, [&](std::int64_t number, Rng& rng) { add_burst(frame, burst_deck_.draw(number), rng, births); });
+std::size_t BirthProcess::example_of(BirthKind kind, std::int64_t j, Rng& rng, int nth) const {
+  const WeightedDeck& deck = kind == BirthKind::kSingle ? deck_ : burst_deck_;
+  return nth == 0 ? deck.draw(j) : deck.at_share(rng.uniform());
+}
+
+void BirthProcess::add_event(BirthKind kind, std::size_t example, std::int64_t frame, Rng& rng,
+                             std::vector<ElementBirth>& births) const {
+  if (kind == BirthKind::kBurst) return add_burst(frame, example, rng, births);
+  births.push_back(birth_like(items_[example], rng));
+  births.back().frame = frame;
+  births.back().rng = rng.fork(7);
+}
+
+void BirthProcess::singles_at(std::int64_t frame, std::vector<ElementBirth>& births) const {
+  if (deck_.empty()) return;
+  singles_.at(frame, [&](std::int64_t number, Rng& rng) {
+    add_event(BirthKind::kSingle, deck_.draw(number), frame, rng, births);
+  });
+}
+
+void BirthProcess::bursts_at(std::int64_t frame, std::vector<ElementBirth>& births) const {
+  if (burst_deck_.empty()) return;
+  bursts_.at(frame, [&](std::int64_t number, Rng& rng) {
+    add_event(BirthKind::kBurst, burst_deck_.draw(number), frame, rng, births);
+  });
 }
 
 }  // namespace motex

@@ -34,6 +34,9 @@ struct ElementBirth {
   Rng rng{0};  ///< its own
 };
 
+/// A birth that comes alone, or a burst.
+enum class BirthKind { kSingle, kBurst };
+
 /// Births of a frame, from the source map P_B of [TM02] in its Parzen form: a birth that was observed, moved by a
 /// normal deviate of the map's bandwidth (one that enters only along the border). Wind changes what comes over each
 /// border: the flux there is density × velocity, so borders to leeward give less, those to windward more, uniformly
@@ -45,9 +48,16 @@ class BirthProcess {
                const BirthSettings& settings, const Rng& rng);
 
   /// Appends the births of events of that frame; those of bursts may lie some frames later.
-  void at(std::int64_t frame, std::vector<ElementBirth>& births);
-  /// Other births from now on, as many and of the same kinds.
-  void begin_anew(const Rng& rng);
+  void singles_at(std::int64_t frame, std::vector<ElementBirth>& births) const;
+  void bursts_at(std::int64_t frame, std::vector<ElementBirth>& births) const;
+
+  /// Events one by one, for those who choose among them. Event j has its time in [j, j + 1) / rate.
+  double rate(BirthKind kind) const { return kind == BirthKind::kSingle ? births_per_frame_ : bursts_per_frame_; }
+  /// Which example event j is like: any few in a row are as varied as the examples. nth > 0: drawn at random.
+  std::size_t example_of(BirthKind kind, std::int64_t j, Rng& rng, int nth) const;
+  /// Appends the births of an event.
+  void add_event(BirthKind kind, std::size_t example, std::int64_t frame, Rng& rng,
+                 std::vector<ElementBirth>& births) const;
   double births_per_frame() const { return births_per_frame_; }
   double bursts_per_frame() const { return bursts_per_frame_; }
 
@@ -66,7 +76,6 @@ class BirthProcess {
   std::vector<Item> items_;
   std::vector<double> source_;  // cumulative, a pixel
   double bandwidth_;
-  std::int64_t period_;
   std::vector<double> burst_rates_;
   double births_per_frame_ = 0, bursts_per_frame_ = 0;
   Arrivals singles_, bursts_;

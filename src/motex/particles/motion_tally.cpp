@@ -17,33 +17,24 @@ void MotionTally::add_element(double vx, double vy) {
   elements_ += 1;
 }
 
-void MotionTally::add(const MotionTally& other) {
-  frames_ += other.frames_;
-  elements_ += other.elements_;
+void MotionTally::add(const MotionTally& other, double times) {
+  frames_ += times * other.frames_;
+  elements_ += times * other.elements_;
   for (std::size_t k = 0; k < kBins; ++k) {
-    speeds_[k] += other.speeds_[k];
-    directions_[k] += other.directions_[k];
+    speeds_[k] += times * other.speeds_[k];
+    directions_[k] += times * other.directions_[k];
   }
 }
 
-void MotionTally::fade(double times) {
-  frames_ *= times;
-  elements_ *= times;
-  for (std::size_t k = 0; k < kBins; ++k) {
-    speeds_[k] *= times;
-    directions_[k] *= times;
-  }
-}
-
-double MotionTally::distance(const MotionTally& wanted) const {
+MotionTally::Difference MotionTally::difference(const MotionTally& wanted) const {
   const double own = std::max(elements_, 1e-9), others = std::max(wanted.elements_, 1e-9);
-  double sum = 0;
-  for (std::size_t k = 0; k < kBins; ++k)
-    sum += (std::abs(speeds_[k] / own - wanted.speeds_[k] / others) +
-            std::abs(directions_[k] / own - wanted.directions_[k] / others)) /
-           2;
-  const double count = elements_ / std::max(frames_, 1e-9), wanted_count = others / std::max(wanted.frames_, 1e-9);
-  return sum + 2 * std::abs(count / wanted_count - 1);
+  Difference apart;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    apart.speed += std::abs(speeds_[k] / own - wanted.speeds_[k] / others) / 2;
+    apart.direction += std::abs(directions_[k] / own - wanted.directions_[k] / others) / 2;
+  }
+  apart.count = elements_ / std::max(frames_, 1e-9) * std::max(wanted.frames_, 1e-9) / others - 1;
+  return apart;
 }
 
 }  // namespace motex

@@ -9,18 +9,21 @@ namespace motex {
 /// How many elements there are, and how fast and where they go: what a synthesis is to share with its clip.
 class MotionTally {
  public:
+  /// Total variation of speed and of direction; elements a frame over those wanted, less one.
+  struct Difference {
+    double speed = 0, direction = 0, count = 0;
+  };
+
   /// Histograms of 24 bins: speeds to top_speed, directions in steps of 15°.
   explicit MotionTally(double top_speed = 1) : top_speed_(top_speed) {}
 
   double top_speed() const { return top_speed_; }
   void add_element(double vx, double vy);
+  double num_elements() const { return elements_; }
   void add_frames(double num) { frames_ += num; }
-  void add(const MotionTally& other);
-  /// Everything times so much: what was long ago counts less.
-  void fade(double times);
-  /// Total variation of speed and of direction, and the difference of the numbers of elements a frame over that of
-  /// `wanted`.
-  double distance(const MotionTally& wanted) const;
+  /// Adds so many times what the other has; −1 takes it away.
+  void add(const MotionTally& other, double times = 1);
+  Difference difference(const MotionTally& wanted) const;
 
  private:
   static constexpr std::size_t kBins = 24;

@@ -91,8 +91,7 @@ void CableSynthesizer::Population::settle(const JobContext& job) {
     report_.deaths_by_age = false;
   }
   if (options_.rate <= 0) return start_at(0, edited, edited_motion());
-  steers_ = is_steered();
-  if (steers_) learn_tally();
+  choose_steering();
   warm_up(edited, edited_motion(), job);
   report_.births_per_frame = births_->births_per_frame();
   report_.bursts_per_frame = births_->bursts_per_frame();
@@ -122,6 +121,8 @@ void CableSynthesizer::Population::start_at(std::int64_t frame, const BirthSetti
   motion_ = motion;
   elements_.clear();
   waiting_.clear();
+  past_.clear();
+  plan_.clear();
   frame_ = frame;
   next_track_ = 0;
 }
@@ -149,14 +150,26 @@ void CableSynthesizer::Population::warm_up(const BirthSettings& settings, const 
 }
 
 void CableSynthesizer::Population::begin_frame() {
-  if (steers_) choose_future();
+  if (steers_singles_ || steers_bursts_) plan_births();
   be_born(new_births_);
-  if (steers_) remember();
+  if (!past_.empty()) tally(past_.back());
 }
 
 void CableSynthesizer::Population::be_born(std::vector<ElementBirth>& births) {
   births.clear();
-  births_->at(frame_, births);
+  if (!steers_singles_) births_->singles_at(frame_, births);
+  if (!steers_bursts_) births_->bursts_at(frame_, births);
+  begin_waiting();
+  for (const ElementBirth& birth : births)
+    if (birth.frame <= frame_)
+      add(birth);
+    else
+      waiting_.push_back(birth);
+  births.clear();
+}
+
+/// Births that were to come by now.
+void CableSynthesizer::Population::begin_waiting() {
   std::size_t num_left = 0;
   for (const ElementBirth& birth : waiting_)
     if (birth.frame <= frame_)
@@ -164,12 +177,6 @@ void CableSynthesizer::Population::be_born(std::vector<ElementBirth>& births) {
     else
       waiting_[num_left++] = birth;
   waiting_.resize(num_left);
-  for (const ElementBirth& birth : births)
-    if (birth.frame <= frame_)
-      add(birth);
-    else
-      waiting_.push_back(birth);
-  births.clear();
 }
 
 std::size_t CableSynthesizer::Population::law_idx(int species) const {

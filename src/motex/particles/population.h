@@ -47,11 +47,31 @@ class CableSynthesizer::Population {
   /// Births of a frame that is going to be seen.
   void begin_frame();
   void be_born(std::vector<ElementBirth>& births);
-  bool is_steered() const;
+  void begin_waiting();
+
+  /// An event that is to come, and what will be seen of it in each part of the time ahead.
+  struct Planned {
+    BirthKind kind = BirthKind::kSingle;
+    std::int64_t number = 0, frame = 0;
+    std::size_t example = 0;
+    Rng rng{0};  ///< of its places and lives
+    std::vector<ElementBirth> births;
+    std::vector<MotionTally> outlook;
+  };
+  void choose_steering();
   void learn_tally();
-  void choose_future();
+  void plan_births();
+  void begin_plan();
+  void extend_plan(BirthKind kind, const Rng& rng);
+  std::vector<Planned> redrawn(const Planned& one, const Planned& another, const Rng& rng) const;
+  void improve_plan(std::vector<MotionTally>& ahead, const Rng& rng);
+  void draw_time(Planned& event, Rng& rng) const;
+  void foresee(Planned& event);
+  std::vector<MotionTally> outlook(std::vector<Element> elements, std::vector<ElementBirth> births, std::int64_t from);
+  double unevenness(const std::vector<MotionTally>& ahead, std::size_t last) const;
+  double cost(const std::vector<MotionTally>& ahead) const;
+  bool counts(const Element& element) const { return steers_singles_ || element.is_burst; }
   void tally(MotionTally& into) const;
-  void remember();
   void add(const ElementBirth& birth);
   void start_motion(Element& element, const ElementBirth& birth);
   void start_path(Element& element, const ElementBirth& birth);
@@ -87,9 +107,15 @@ class CableSynthesizer::Population {
   std::map<int, Series> series_;
   MotionEdit motion_;
   bool draws_looks_ = true;
-  std::int64_t longest_life_ = 0;  // 0 = any
-  bool steers_ = false;            // futures are chosen
-  MotionTally wanted_, past_;
+  std::int64_t longest_life_ = 0;                        // 0 = any
+  bool steers_singles_ = false, steers_bursts_ = false;  // births are chosen among many
+  std::int64_t part_ = 1;                                // frames between choices
+  std::size_t num_ahead_ = 0;                            // parts that are planned
+  MotionTally wanted_;
+  std::vector<double> wanted_parts_;  // elements in each part of the clip, fewest first
+  std::vector<MotionTally> past_;     // parts before now, the last may go on
+  std::vector<Planned> plan_;
+  std::int64_t next_single_ = 0, next_burst_ = 0;
 
   std::optional<BirthProcess> births_;
   std::vector<Element> elements_;
