@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "motex/core/quantile.h"
 
@@ -135,6 +136,7 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
       out.idle.push_back({static_cast<int>(frame), static_cast<int>(end - frame)});
     frame = std::max(end, frame + 1);
   }
+  out.level = std::move(level);
   return out;
 }
 

@@ -13,6 +13,7 @@ namespace motex {
 struct Activity {
   std::vector<unsigned char> active;  ///< frame by frame; numbers that are not finite are not active
   std::vector<FrameSpan> idle;        ///< runs of at least `window` frames without activity
+  std::vector<double> level;          ///< of each frame: the deviation about it, in units of `scale`; −1 = not known
   std::vector<double> scale;          ///< of each signal: 95th percentile of its deviation in a window
   bool two_levels = false;            ///< idle and active stretches were told apart
 };

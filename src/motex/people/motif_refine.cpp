@@ -17,7 +17,6 @@ constexpr double kMoves = 0.05;      // variance in a piece / in the window: les
 constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
 constexpr double kPieceSecs = 0.2;
 constexpr double kSharedPiece = 0.2;  // with another performance: that piece is not free
-constexpr double kStray = 0.05;       // occurrences that chance may add to a motif
 
 int middle(const Occurrence& one) { return one.start + one.length / 2; }
 bool is_taken(const std::vector<Motif>& motifs, const Occurrence& place) {

@@ -3,6 +3,7 @@
 #include "motex/people/motif_seeds.h"
 
 #include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "motex/core/parallel.h"
@@ -15,7 +16,7 @@
 namespace motex {
 namespace {
 
-constexpr int kSeedsALength = 14, kSeedsOfOneLength = 60;
+constexpr std::size_t kSeedsALength = 12, kSeedsOfOneLength = 60, kNewSeeds = 10;
 constexpr int kBackgroundFrames = 8000;
 constexpr double kLeastActive = 0.3;
 constexpr double kLeastActiveSeed = 0.8, kLeastActiveWhole = 0.6;  // of a window whose length was not asked for
@@ -49,29 +50,34 @@ void leave_out_idle(SeriesWindows& windows, const MotifSearch& search) {
   }
 }
 
-/// Starts of the closest pairs, half a window apart.
-std::vector<int> seeds_of(const MatrixProfile& profile, int most) {
-  std::vector<int> order;
-  for (std::size_t i = 0; i < profile.distance.size(); ++i)
-    if (profile.nearest[i] >= 0) order.push_back(static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return profile.distance[static_cast<std::size_t>(a)] < profile.distance[static_cast<std::size_t>(b)];
-  });
-  std::vector<unsigned char> taken(profile.distance.size(), 0);
-  std::vector<int> out;
-  const auto take = [&](int i) {
-    const int half = profile.window / 2, size = static_cast<int>(taken.size());
-    std::fill(taken.begin() + std::max(0, i - half), taken.begin() + std::min(size, i + half + 1), 1);
-  };
-  for (const int i : order) {
-    if (static_cast<int>(out.size()) == most) break;
-    if (taken[static_cast<std::size_t>(i)] != 0) continue;
-    out.push_back(i);
-    take(i);
-    take(profile.nearest[static_cast<std::size_t>(i)]);
+/// Starts of the closest pairs, one after another, none within half a window of what was found before.
+class SeedStarts {
+ public:
+  explicit SeedStarts(const MatrixProfile& profile) : half_(profile.window / 2), taken_(profile.distance.size(), 0) {
+    for (std::size_t i = 0; i < profile.distance.size(); ++i)
+      if (profile.nearest[i] >= 0) order_.push_back(static_cast<int>(i));
+    std::stable_sort(order_.begin(), order_.end(), [&](int a, int b) {
+      return profile.distance[static_cast<std::size_t>(a)] < profile.distance[static_cast<std::size_t>(b)];
+    });
   }
-  return out;
-}
+  /// −1: none is left.
+  int next() {
+    for (; at_ < order_.size(); ++at_)
+      if (taken_[static_cast<std::size_t>(order_[at_])] == 0) return order_[at_];
+    return -1;
+  }
+  void take(int start) {
+    const int size = static_cast<int>(taken_.size());
+    const int from = std::clamp(start - half_, 0, size), to = std::clamp(start + half_ + 1, 0, size);
+    std::fill(taken_.begin() + from, taken_.begin() + std::max(from, to), 1);
+  }
+
+ private:
+  int half_;
+  std::size_t at_ = 0;
+  std::vector<int> order_;
+  std::vector<unsigned char> taken_;
+};
 
 std::vector<Match> matches_of(const MotifSearch& search, const Pattern& pattern, double amplitude) {
   std::vector<Match> out;
@@ -99,7 +105,7 @@ void weigh(MotifSeed& seed, const MotifSearch& search, const Pattern& pattern) {
   const ChanceRates rate_of(search.backgrounds, pattern);
   seed.lambda.clear();
   for (const Match& match : seed.matches) seed.lambda.push_back(rate_of(match.correlation) * search.places);
-  rate(seed, search.options);
+  rate(seed, search);
 }
 
 /// The members of a mean resemble it because they are in it: against the mean of the others,
@@ -161,8 +167,10 @@ std::vector<PatternSearch> backgrounds_of(const FrameMatrix& series, const std::
   return backgrounds;
 }
 
-void rate(MotifSeed& seed, const FindMotifsOptions& options) {
+void rate(MotifSeed& seed, const MotifSearch& search) {
+  const FindMotifsOptions& options = search.options;
   seed.gain = 0;
+  seed.saved = 0;
   seed.count = 1;
   for (std::size_t k = 1; k < seed.matches.size(); ++k) {
     const double distance = correlation_distance(seed.matches[k].correlation);
@@ -171,6 +179,17 @@ void rate(MotifSeed& seed, const FindMotifsOptions& options) {
     if (gain <= seed.gain && options.radius <= 0) continue;
     seed.gain = gain;
     seed.count = static_cast<int>(k) + 1;
+  }
+  while (options.radius <= 0 && seed.count > 1 && seed.count < static_cast<int>(seed.matches.size())) {
+    const Match& next = seed.matches[static_cast<std::size_t>(seed.count)];
+    if (seed.lambda[static_cast<std::size_t>(seed.count)] > kStray ||
+        search.code.saved(next.start, next.length, next.correlation) <= 0)
+      break;
+    ++seed.count;
+  }
+  for (int k = 1; k < seed.count; ++k) {
+    const Match& match = seed.matches[static_cast<std::size_t>(k)];
+    seed.saved += std::max(0.0, search.code.saved(match.start, match.length, match.correlation));
   }
 }
 
@@ -187,25 +206,59 @@ bool is_several(const MotifSearch& search, const MotifSeed& seed) {
   return quantile(std::move(rivals), 0.5) >= least || quantile(std::move(steps), 0.5) < kLeastStep * seed.window;
 }
 
-std::vector<MotifSeed> motif_seeds(MotifSearch& search, const std::vector<int>& lengths,
-                                   const std::vector<FrameSpan>& active, double& num_patterns) {
+namespace {
+
+void take_matches(SeedStarts& starts, const MotifSeed& seed) {
+  for (std::size_t k = 0; k < seed.matches.size() && static_cast<int>(k) < seed.count; ++k)
+    starts.take(seed.matches[k].start);
+}
+
+/// Those of one length; `search` is this length's own.
+std::vector<MotifSeed> seeds_of_length(MotifSearch& search, int window, const std::vector<FrameSpan>& active,
+                                       const JobContext& job) {
+  SeriesWindows windows = series_windows(search.series, window, search.stretches);
+  leave_out_idle(windows, search);
+  const MatrixProfile profile = matrix_profile(windows, window / 2, job);
+  search.places = static_cast<double>(std::count(windows.usable.begin(), windows.usable.end(), 1));
+  search.backgrounds = backgrounds_of(search.series, active, window);
+  search.frames.prepare(window);
+  for (PatternSearch& background : search.backgrounds) background.prepare(window);
   std::vector<MotifSeed> seeds;
-  for (const int window : lengths) {
-    SeriesWindows windows = series_windows(search.series, window, search.stretches);
-    leave_out_idle(windows, search);
-    const MatrixProfile profile = matrix_profile(windows, window / 2, search.job);
-    const std::vector<int> starts = seeds_of(profile, search.options.window > 0 ? kSeedsOfOneLength : kSeedsALength);
-    search.places = static_cast<double>(std::count(windows.usable.begin(), windows.usable.end(), 1));
-    num_patterns += search.places / (window / 2.0);
-    search.backgrounds = backgrounds_of(search.series, active, window);
-    search.frames.prepare(window);
-    for (PatternSearch& background : search.backgrounds) background.prepare(window);
-    const std::size_t first = seeds.size();
-    seeds.resize(first + starts.size());
-    parallel_for(search.job.jobs, static_cast<int>(starts.size()), [&](int k) {
-      search.job.check_cancelled();
-      seeds[first + static_cast<std::size_t>(k)] = grow(search, starts[static_cast<std::size_t>(k)], window);
-    });
+  SeedStarts starts(profile);
+  const auto grow_until = [&](std::size_t most, bool new_only) {
+    for (int start = starts.next(); start >= 0 && seeds.size() < most; start = starts.next()) {
+      job.check_cancelled();
+      seeds.push_back(grow(search, start, window));
+      starts.take(start);
+      starts.take(profile.nearest[static_cast<std::size_t>(start)]);
+      if (new_only) take_matches(starts, seeds.back());
+    }
+  };
+  const std::size_t most = search.options.window > 0 ? kSeedsOfOneLength : kSeedsALength;
+  grow_until(most, false);
+  for (const MotifSeed& seed : seeds) take_matches(starts, seed);
+  grow_until(most + kNewSeeds, true);
+  return seeds;
+}
+
+}  // namespace
+
+std::vector<MotifSeed> motif_seeds(const MotifSearch& search, const std::vector<int>& lengths,
+                                   const std::vector<FrameSpan>& active, double& num_patterns) {
+  std::vector<std::vector<MotifSeed>> found(lengths.size());
+  std::vector<double> places(lengths.size());
+  JobContext inner = search.job;
+  if (lengths.size() > 1) inner.jobs = 1;
+  parallel_for(search.job.jobs, static_cast<int>(lengths.size()), [&](int k) {
+    const auto at = static_cast<std::size_t>(k);
+    MotifSearch own = search;
+    found[at] = seeds_of_length(own, lengths[at], active, inner);
+    places[at] = own.places;
+  });
+  std::vector<MotifSeed> seeds;
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    num_patterns += places[k] / (lengths[k] / 2.0);
+    seeds.insert(seeds.end(), std::make_move_iterator(found[k].begin()), std::make_move_iterator(found[k].end()));
   }
   return seeds;
 }

@@ -9,6 +9,7 @@
 #include "motex/core/job.h"
 #include "motex/core/matrix.h"
 #include "motex/people/action_windows.h"
+#include "motex/people/motif_code.h"
 #include "motex/people/motifs.h"
 #include "motex/people/template_match.h"
 
@@ -19,6 +20,9 @@ inline double correlation_distance(double correlation) { return std::sqrt(std::m
 
 /// Least correlation of a match with its pattern.
 inline constexpr double kAgree = 0.85;
+
+/// Occurrences that chance may add to a motif.
+inline constexpr double kStray = 0.05;
 
 /// One action is performed with at most 1.9 times the amplitude of another time.
 inline bool is_as_strong(double amplitude, double other) {
@@ -43,6 +47,7 @@ struct MotifSeed {
   std::vector<Match> matches;
   std::vector<double> lambda;  ///< expected by chance at each match
   double gain = 0;             ///< nats: −ln P
+  double saved = 0;            ///< nats: MotifCode
   int count = 0;               ///< occurrences within R
 };
 
@@ -53,7 +58,8 @@ struct MotifSearch {
   const std::vector<FrameSpan>& stretches;
   const JobContext& job;
   ActionWindows action;
-  PatternSearch frames;                      ///< of the series
+  PatternSearch frames;  ///< of the series
+  MotifCode code;
   std::vector<PatternSearch> backgrounds{};  ///< of the length at hand
   double places = 0;                         ///< windows of the length at hand that may be an action
   bool whole_only = false;                   ///< ActionWindows::allow
@@ -63,14 +69,14 @@ struct MotifSearch {
 std::vector<PatternSearch> backgrounds_of(const FrameMatrix& series, const std::vector<FrameSpan>& active, int window);
 
 /// The count of least chance among the seed's matches (inside options.radius where it is given).
-void rate(MotifSeed& seed, const FindMotifsOptions& options);
+void rate(MotifSeed& seed, const MotifSearch& search);
 
 /// The pattern repeats within itself: a shorter one tells more.
 bool is_several(const MotifSearch& search, const MotifSeed& seed);
 
 /// Patterns of every length with what they match. active: what the background is fitted to. num_patterns grows by the
 /// number of different patterns there could be.
-std::vector<MotifSeed> motif_seeds(MotifSearch& search, const std::vector<int>& lengths,
+std::vector<MotifSeed> motif_seeds(const MotifSearch& search, const std::vector<int>& lengths,
                                    const std::vector<FrameSpan>& active, double& num_patterns);
 
 }  // namespace motex
