@@ -100,7 +100,7 @@ class SessionWriter {
     write_tracks();
     xml_ += "  </Model>\n";
     write_settings();
-    xml_ += "  <GUIState state=\"ConfigureViews\" />\n</TrackMate>\n";
+    xml_ += "  <GUIState state=\"ConfigureViews\" />\n  <DisplaySettings />\n</TrackMate>\n";
     return std::move(xml_);
   }
 

@@ -42,6 +42,7 @@ TEST(TrackmateXml, HasSpotsByFrameEdgesAndVisibleTracks) {
                   "POSITION_X=\"2\" POSITION_Y=\"4\""),
             1);
   EXPECT_EQ(count(xml, "a &amp; &lt;b&gt;.mp4"), 1);
+  EXPECT_EQ(count(xml, "<DisplaySettings />"), 1) << "without it TrackMate's reader says that an error occurred";
 }
 
 TEST(TrackmateXml, GivesPhysicalUnits) {
