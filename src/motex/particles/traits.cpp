@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kFewestFrames = 3;  // of a cable that tells of motion
 constexpr double kLeastBrightness = 1;    // grey levels
 constexpr double kLeastShare = 0.05;
+constexpr double kLeastGround = 8;  // grey levels behind an element
+constexpr std::array<double, static_cast<std::size_t>(Trait::kCount)> kWeights{0.6, 0.6, 0.5, 1, 1, 1.5,
+                                                                               0.5, 1.5, 2,   5, 1, 2.5};
 
 /// Bounded, so that clips of a thousand elements are no surer than those of ten.
 double logit(double share) { return std::log((share + kLeastShare) / (1 - share + kLeastShare)); }
@@ -30,6 +33,7 @@ struct Sums {
   double kept_square = 0;  // of mean velocities
   double gained = 0, moving = 0;
   double faded = 0, changes = 0, changes_square = 0;
+  double contrast = 0;  // of all frames of cables
 };
 
 /// Accelerations by halves of a life, which errors of tracking do not hide.
@@ -55,13 +59,24 @@ void add_motion(const Cable& cable, Sums& sums) {
   sums.moving += 1;
 }
 
-void add_brightness(const Cable& cable, int num_planes, Sums& sums) {
+/// Light behind a base, all planes of colour together as luma; outside the picture that at its border.
+double ground_behind(const TexturedMotion& clip, const Base& base) {
+  if (clip.background.empty()) return 0;
+  const Plane& first = clip.background[0];
+  const int x = std::clamp(static_cast<int>(std::lround(base.x)), 0, first.width - 1),
+            y = std::clamp(static_cast<int>(std::lround(base.y)), 0, first.height - 1);
+  if (clip.background.size() < 3) return first.at(x, y);
+  return luma_of(first.at(x, y), clip.background[1].at(x, y), clip.background[2].at(x, y));
+}
+
+void add_brightness(const Cable& cable, const TexturedMotion& clip, Sums& sums) {
   std::vector<double> ln;
   double sum = 0;
   for (Base base : cable.core) {
-    base.coefficients[0] = static_cast<float>(luma_coefficient(base, num_planes));
+    base.coefficients[0] = static_cast<float>(luma_coefficient(base, clip.num_planes));
     const double peak = peak_amplitude(base);
     sum += peak;
+    sums.contrast += std::abs(peak) / (ground_behind(clip, base) + kLeastGround);
     ln.push_back(std::log(std::max(kLeastBrightness, std::abs(peak))));
   }
   sums.cables += 1;
@@ -93,7 +108,7 @@ double bursts_of(const TexturedMotion& clip) {
 const char* name_of(Trait trait) {
   static constexpr std::array<const char*, static_cast<std::size_t>(Trait::kCount)> kNames{
       "life",         "born inside", "speed",   "coherence", "steadiness", "falling",
-      "acceleration", "fading",      "flicker", "dark",      "bursts"};
+      "acceleration", "fading",      "flicker", "dark",      "bursts",     "contrast"};
   return kNames[static_cast<std::size_t>(trait)];
 }
 
@@ -108,7 +123,7 @@ ClipTraits traits_of(const TexturedMotion& clip) {
     sums.births += fates[k].birth_seen ? 1 : 0;
     sums.births_inside += fates[k].birth_seen && !fates[k].enters ? 1 : 0;
     sums.deaths_inside += fates[k].death_seen && !fates[k].leaves ? 1 : 0;
-    add_brightness(cable, clip.num_planes, sums);
+    add_brightness(cable, clip, sums);
     if (cable.core.size() >= kFewestFrames) add_motion(cable, sums);
   }
   const double steps = std::max(1.0, sums.steps), mean_square = std::max(1e-6, sums.square / steps);
@@ -126,13 +141,14 @@ ClipTraits traits_of(const TexturedMotion& clip) {
   set(Trait::kFlicker, std::log(std::max(1e-2, std::sqrt(sums.changes_square / std::max(1.0, sums.changes)))));
   set(Trait::kDark, logit(share_of(sums.dark, sums.cables)));
   set(Trait::kBursts, std::log(bursts_of(clip)));
+  set(Trait::kContrast, std::log(std::max(1e-3, sums.contrast / std::max(1.0, sums.frames))));
   return traits;
 }
 
 double trait_distance(const ClipTraits& a, const ClipTraits& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.values.size(); ++k)
-    sum += (a.values[k] - b.values[k]) * (a.values[k] - b.values[k]) / 2;
+    sum += kWeights[k] * (a.values[k] - b.values[k]) * (a.values[k] - b.values[k]) / 2;
   return sum;
 }
 

@@ -24,6 +24,7 @@ enum class Trait : std::size_t {
   kFlicker,       ///< ln of the root mean square of changes of ln brightness from frame to frame
   kDark,          ///< logit of elements darker than what is behind them
   kBursts,        ///< ln variance over mean of the number of births a frame
+  kContrast,      ///< ln of the mean ratio of an element's brightness to that of what is behind it
   kCount
 };
 
@@ -38,7 +39,9 @@ const char* name_of(Trait trait);
 /// Of the cables of a clip or of a model. Throws InvalidInput when there are none.
 ClipTraits traits_of(const TexturedMotion& clip);
 
-/// Σ (difference)² / 2: −ln of how probable one is given the other, each trait normal with a deviation of one.
+/// Σ w (difference)² / 2. w: how well a trait tells kinds apart, which is the deviation between kinds over that within
+/// them, over the variance within: 5 for the dark share (flakes and sparks are bright, birds dark, water is both), 2.5
+/// for contrast (sparks shine by themselves), 0.5 for speed. Of 19 clips of four kinds, rounded.
 double trait_distance(const ClipTraits& a, const ClipTraits& b);
 
 }  // namespace motex

@@ -19,6 +19,7 @@ TexturedMotion followed(const SimulatedScene& scene, std::int64_t num_frames) {
   model.height = scene.height;
   model.num_frames = num_frames;
   model.num_planes = 1;
+  model.background = to_planes(scene.background, 1);
   for (const SimulatedPoint& point : scene.points) {
     const auto track = static_cast<std::size_t>(point.track);
     if (model.cables.size() <= track) model.cables.resize(track + 1);
@@ -68,6 +69,9 @@ TEST(Traits, ScaleAndContrastChangeNothing) {
       base.scale *= 2;
       base.coefficients[0] *= 6;  // three times the peak
     }
+  larger.background = Planes(1, Plane(larger.width, larger.height));
+  for (int y = 0; y < larger.height; ++y)
+    for (int x = 0; x < larger.width; ++x) larger.background[0].at(x, y) = 3 * model.background[0].at(x / 2, y / 2);
   const ClipTraits a = traits_of(model), b = traits_of(larger);
   for (std::size_t k = 0; k < a.values.size(); ++k)
     EXPECT_NEAR(a.values[k], b.values[k], 0.15) << name_of(static_cast<Trait>(k));
@@ -82,6 +86,8 @@ TEST(Traits, SayWhatTheyShould) {
   EXPECT_GT(bursting[Trait::kBursts], falling[Trait::kBursts] + 1);
   EXPECT_GT(flying[Trait::kDark], 2);
   EXPECT_LT(falling[Trait::kDark], -2);
+  EXPECT_GT(bursting[Trait::kContrast], falling[Trait::kContrast] + 0.5);
+  EXPECT_LT(flying[Trait::kContrast], 0) << "nothing is darker than black";
 }
 
 TEST(Traits, ClipsOfOneKindAreNearest) {
