@@ -15,6 +15,9 @@ namespace {
 constexpr double kLeastRatio = 2.8;
 constexpr double kLeastExplained = 0.72;
 constexpr double kWidestIdle = 0.45;
+constexpr double kStill = 0.1;                        // of the scale: a person who stands breathes and sways
+constexpr double kBrief = 0.4, kShortestStill = 0.6;  // of the window
+constexpr int kFewestFrames = 4;
 constexpr double kConstant = 1e-9;  // of the largest number
 
 /// x less its mean over `reach` frames before and after (fewer at the ends, alike on both sides), in one stretch;
@@ -75,32 +78,73 @@ Split otsu(std::vector<double> values) {
   return best;
 }
 
+constexpr double kUnknown = -1;
+
+/// Of each signal the deviation in a window about every frame; −1 where it is not known.
+std::vector<std::vector<double>> deviations(const FrameMatrix& series, const std::vector<FrameSpan>& parts, int window,
+                                            const std::vector<double>& largest) {
+  std::vector<std::vector<double>> out;
+  for (Index s = 0; s < series.cols(); ++s) {
+    out.emplace_back(static_cast<std::size_t>(series.rows()), kUnknown);
+    for (const FrameSpan& part : parts)
+      for (int frame = part.start; frame < part.end() && part.length >= window; ++frame) {
+        const int first = std::clamp(frame - window / 2, part.start, part.end() - window);
+        const double value = deviation_in(series, first, window, s, largest[static_cast<std::size_t>(s)]);
+        if (std::isfinite(value)) out.back()[static_cast<std::size_t>(frame)] = value;
+      }
+  }
+  return out;
+}
+
+/// Root mean square over signals, in units of their scales.
+std::vector<double> levels(const std::vector<std::vector<double>>& deviation, const std::vector<double>& scale,
+                           std::size_t num_frames) {
+  std::vector<double> level(num_frames, kUnknown);
+  for (std::size_t frame = 0; frame < num_frames; ++frame) {
+    double sum = 0;
+    bool known = true;
+    for (std::size_t s = 0; s < deviation.size(); ++s) {
+      known = known && deviation[s][frame] >= 0;
+      if (scale[s] > 0) sum += deviation[s][frame] * deviation[s][frame] / (scale[s] * scale[s]);
+    }
+    if (known) level[frame] = std::sqrt(sum / static_cast<double>(deviation.size()));
+  }
+  return level;
+}
+
+/// Runs of at least `shortest` frames of one part with levels of at most `threshold`.
+std::vector<FrameSpan> low_runs(const std::vector<double>& level, double threshold, int shortest) {
+  std::vector<FrameSpan> runs;
+  const auto is_low = [&](std::size_t frame) { return level[frame] >= 0 && level[frame] <= threshold; };
+  for (std::size_t frame = 0; frame < level.size();) {
+    std::size_t end = frame;
+    while (end < level.size() && is_low(end)) ++end;
+    if (end - frame >= static_cast<std::size_t>(shortest))
+      runs.push_back({static_cast<int>(frame), static_cast<int>(end - frame)});
+    frame = std::max(end, frame + 1);
+  }
+  return runs;
+}
+
+std::vector<double> largest_numbers(const FrameMatrix& series) {
+  std::vector<double> largest(static_cast<std::size_t>(series.cols()), 0);
+  for (Index s = 0; s < series.cols(); ++s)
+    for (Index t = 0; t < series.rows(); ++t)
+      if (double& most = largest[static_cast<std::size_t>(s)]; std::isfinite(series(t, s)))
+        most = std::max(most, std::abs(series(t, s)));
+  return largest;
+}
+
 }  // namespace
 
 Activity find_activity(const FrameMatrix& given, int window, int drift, const std::vector<FrameSpan>& stretches) {
   FrameMatrix series = given;
   const auto num_frames = static_cast<std::size_t>(series.rows());
-  const Index num_signals = series.cols();
   std::vector<FrameSpan> parts = stretches;
   if (parts.empty()) parts.push_back({0, static_cast<int>(series.rows())});
-  std::vector<double> largest(static_cast<std::size_t>(num_signals), 0);
-  for (Index s = 0; s < num_signals; ++s)
-    for (Index t = 0; t < given.rows(); ++t)
-      if (std::isfinite(given(t, s)))
-        largest[static_cast<std::size_t>(s)] = std::max(largest[static_cast<std::size_t>(s)], std::abs(given(t, s)));
+  const std::vector<double> largest = largest_numbers(given);
   for (const FrameSpan& part : parts) subtract_drift(series, part, drift);
-  constexpr double kUnknown = -1;
-  std::vector<std::vector<double>> deviation(static_cast<std::size_t>(num_signals));
-  for (Index s = 0; s < num_signals; ++s) {
-    auto& out = deviation[static_cast<std::size_t>(s)];
-    out.assign(num_frames, kUnknown);
-    for (const FrameSpan& part : parts)
-      for (int frame = part.start; frame < part.end() && part.length >= window; ++frame) {
-        const int first = std::clamp(frame - window / 2, part.start, part.end() - window);
-        const double value = deviation_in(series, first, window, s, largest[static_cast<std::size_t>(s)]);
-        if (std::isfinite(value)) out[static_cast<std::size_t>(frame)] = value;
-      }
-  }
+  const auto deviation = deviations(series, parts, window, largest);
   Activity out;
   for (const auto& values : deviation) {
     std::vector<double> known;
@@ -108,18 +152,10 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
       if (v > 0) known.push_back(v);
     out.scale.push_back(known.empty() ? 0 : quantile(std::move(known), 0.95));
   }
-  std::vector<double> level(num_frames, kUnknown), logarithms;
-  for (std::size_t frame = 0; frame < num_frames; ++frame) {
-    double sum = 0;
-    bool known = true;
-    for (std::size_t s = 0; s < deviation.size(); ++s) {
-      known = known && deviation[s][frame] >= 0;
-      if (out.scale[s] > 0) sum += deviation[s][frame] * deviation[s][frame] / (out.scale[s] * out.scale[s]);
-    }
-    if (!known) continue;
-    level[frame] = std::sqrt(sum / static_cast<double>(num_signals));
-    if (level[frame] > 0) logarithms.push_back(std::log(level[frame]));
-  }
+  out.level = levels(deviation, out.scale, num_frames);
+  std::vector<double> logarithms;
+  for (const double level : out.level)
+    if (level > 0) logarithms.push_back(std::log(level));
   double threshold = 0;
   if (logarithms.size() > 2) {
     const Split split = otsu(logarithms);
@@ -128,15 +164,11 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
     if (out.two_levels) threshold = std::exp(split.threshold);
   }
   out.active.assign(num_frames, 0);
-  for (std::size_t frame = 0; frame < num_frames; ++frame) out.active[frame] = level[frame] > threshold ? 1 : 0;
-  for (std::size_t frame = 0; frame < num_frames;) {
-    std::size_t end = frame;
-    while (end < num_frames && out.active[end] == 0 && level[end] >= 0) ++end;
-    if (end - frame >= static_cast<std::size_t>(window))
-      out.idle.push_back({static_cast<int>(frame), static_cast<int>(end - frame)});
-    frame = std::max(end, frame + 1);
-  }
-  out.level = std::move(level);
+  for (std::size_t frame = 0; frame < num_frames; ++frame) out.active[frame] = out.level[frame] > threshold ? 1 : 0;
+  const int brief = std::max(kFewestFrames, static_cast<int>(std::lround(kBrief * window)));
+  out.idle = out.two_levels ? low_runs(out.level, threshold, window)
+                            : low_runs(levels(deviations(series, parts, brief, largest), out.scale, num_frames), kStill,
+                                       static_cast<int>(std::lround(kShortestStill * window)));
   return out;
 }
 

@@ -38,6 +38,18 @@ std::vector<int> lengths(const FindMotifsOptions& options, int longest) {
   return out;
 }
 
+/// Who holds still in the midst of an action performs it.
+std::vector<FrameSpan> outside_actions(std::vector<FrameSpan> idle, const std::vector<Motif>& motifs) {
+  std::erase_if(idle, [&](const FrameSpan& span) {
+    return std::any_of(motifs.begin(), motifs.end(), [&](const Motif& motif) {
+      return std::any_of(motif.occurrences.begin(), motif.occurrences.end(), [&](const Occurrence& one) {
+        return one.start <= span.start && span.end() <= one.start + one.length;
+      });
+    });
+  });
+  return idle;
+}
+
 }  // namespace
 
 std::string motif_letter(int idx) {
@@ -76,7 +88,6 @@ MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& optio
     if (active.empty() || active.back().end() != static_cast<int>(t)) active.push_back({static_cast<int>(t), 0});
     ++active.back().length;
   }
-  report.set.idle = activity.idle;
   std::vector<SelectedMotif> selected;
   for (const bool whole_only : {true, false}) {
     if (whole_only && !activity.two_levels) continue;
@@ -88,6 +99,7 @@ MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& optio
   }
   for (SelectedMotif& known : selected) report.set.motifs.push_back(std::move(known.motif));
   refine_motifs(search, active, report.set.motifs);
+  report.set.idle = outside_actions(activity.idle, report.set.motifs);
   std::stable_sort(report.set.motifs.begin(), report.set.motifs.end(),
                    [](const Motif& a, const Motif& b) { return a.occurrences.size() > b.occurrences.size(); });
   for (std::size_t k = 0; k < report.set.motifs.size(); ++k)
