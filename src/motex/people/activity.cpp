@@ -166,9 +166,9 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
   out.active.assign(num_frames, 0);
   for (std::size_t frame = 0; frame < num_frames; ++frame) out.active[frame] = out.level[frame] > threshold ? 1 : 0;
   const int brief = std::max(kFewestFrames, static_cast<int>(std::lround(kBrief * window)));
+  out.brief_level = levels(deviations(series, parts, brief, largest), out.scale, num_frames);
   out.idle = out.two_levels ? low_runs(out.level, threshold, window)
-                            : low_runs(levels(deviations(series, parts, brief, largest), out.scale, num_frames), kStill,
-                                       static_cast<int>(std::lround(kShortestStill * window)));
+                            : low_runs(out.brief_level, kStill, static_cast<int>(std::lround(kShortestStill * window)));
   return out;
 }
 

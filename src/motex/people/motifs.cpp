@@ -72,7 +72,7 @@ MotifReport find_motifs(const FrameMatrix& given, const FindMotifsOptions& optio
   if (series.cols() > 1)  // made comparable, so that one deviation a window will do
     for (Index s = 0; s < series.cols(); ++s)
       if (const double scale = activity.scale[static_cast<std::size_t>(s)]; scale > 0) series.col(s) /= scale;
-  std::vector<double> level = activity.level;
+  std::vector<double> level = activity.brief_level;
   for (double& value : level)
     if (value >= 0) value *= series.cols() > 1 ? std::sqrt(static_cast<double>(series.cols())) : activity.scale[0];
   MotifSearch search{series,

@@ -9,6 +9,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/people/activity.h"
 
 namespace motex {
 namespace {
@@ -58,6 +59,22 @@ TEST(Motifs, PlantedActionsAreFoundEachInOneMotif) {
     }
     EXPECT_GE(report.set.idle.size(), 7U);
   }
+}
+
+TEST(Motifs, WhoRestsOnlyBrieflyIsIdleThere) {
+  Rng rng(5);
+  constexpr int kAction = 45, kRest = 24, kTimes = 12;
+  FrameMatrix x = FrameMatrix::Zero(kTimes * (kAction + kRest), 1);
+  double sway = 0;
+  for (Index t = 0; t < x.rows(); ++t) {
+    x(t, 0) = 0.004 * (sway = 0.9 * sway + rng.normal());
+    const auto in_action = static_cast<double>(t % (kAction + kRest));
+    if (in_action < kAction) x(t, 0) += std::sin(2 * kPi * in_action / kAction);
+  }
+  const std::vector<FrameSpan> idle = find_activity(x, 24, 150, {}).idle;
+  EXPECT_GE(idle.size(), 10U);
+  for (const FrameSpan& span : idle)
+    EXPECT_GE((span.start + span.length / 2) % (kAction + kRest), kAction) << span.start;
 }
 
 TEST(Motifs, WhatOnlyWandersRepeatsNothing) {
