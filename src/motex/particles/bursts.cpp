@@ -198,8 +198,30 @@ bool comes_from_many_sides(const std::vector<Beginning>& members, double frame) 
   return count > 0 && std::hypot(x, y) < kOneSided * count;
 }
 
-/// The burst near a peak, with its members taken out of `left`; no members: there is none.
-Burst burst_at(const Peak& peak, std::vector<Beginning>& left, const FindBurstsOptions& options) {
+/// Square pixels in which cables begin.
+double area_of(const std::vector<Beginning>& beginnings) {
+  std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
+  for (const Beginning& one : beginnings)
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], one.at(axis, one.frame));
+      high[axis] = std::max(high[axis], one.at(axis, one.frame));
+    }
+  return std::max(1.0, (high[0] - low[0]) * (high[1] - low[1]));
+}
+
+/// How many would go through if they began anywhere: of crowds of short paths, whose way back is vague, many do.
+double through_by_chance(const std::vector<Beginning>& beginnings, const Burst& burst, double max_delay, double area) {
+  double sum = 0;
+  for (const Beginning& one : beginnings) {
+    const double delay = one.frame - burst.frame;
+    if (delay < -1.5 || delay > max_delay) continue;
+    sum += std::min(1.0, std::numbers::pi * kGate * kGate * (1 + one.variance(burst.frame)) / area);
+  }
+  return sum;
+}
+
+/// The burst near a peak, with its members taken out of `left`; no members: there is none. area: where cables begin.
+Burst burst_at(const Peak& peak, double area, std::vector<Beginning>& left, const FindBurstsOptions& options) {
   Burst burst;
   burst.x = (peak.cell.x + 0.5) * kCell;
   burst.y = (peak.cell.y + 0.5) * kCell;
@@ -212,6 +234,8 @@ Burst burst_at(const Peak& peak, std::vector<Beginning>& left, const FindBurstsO
   std::vector<Beginning> members, others;
   for (const Beginning& one : left) (goes_through(one, burst, options.max_delay) ? members : others).push_back(one);
   if (static_cast<int>(members.size()) < options.min_cables || !comes_from_many_sides(members, burst.frame)) return {};
+  const double chance = through_by_chance(others, burst, options.max_delay, area);
+  if (static_cast<double>(members.size()) < chance + 5 * std::sqrt(chance)) return {};
   for (const Beginning& one : members) burst.cables.push_back(one.cable);
   left = std::move(others);
   return burst;
@@ -266,13 +290,14 @@ std::vector<Burst> find_bursts(std::span<const Cable> cables, const FindBurstsOp
   for (std::size_t i = 0; i < cables.size(); ++i)
     if (cables[i].first_frame > 0 && cables[i].core.size() >= 2)
       left.push_back(beginning_of(cables[i], static_cast<int>(i)));
+  const double area = area_of(left);
   std::vector<Burst> bursts;
   for (bool found = true; found && static_cast<int>(left.size()) >= options.min_cables;) {
     found = false;
     int attempts = 0;
     for (const Peak& peak : peaks_of(left, options)) {
       if (++attempts > 20) break;
-      Burst burst = burst_at(peak, left, options);
+      Burst burst = burst_at(peak, area, left, options);
       if (burst.cables.empty()) continue;
       if (Burst* whole = whole_of(burst, bursts, options.max_delay); whole != nullptr)
         whole->cables.insert(whole->cables.end(), burst.cables.begin(), burst.cables.end());

@@ -67,6 +67,19 @@ TEST(FindBursts, SnowHasNone) {
   EXPECT_TRUE(find_bursts(true_cables(simulate_snow(options))).empty());
 }
 
+/// Pieces of five frames that go any way: carried back their places are vague, so that many seem to meet.
+TEST(FindBursts, ACrowdOfShortPathsHasNone) {
+  Rng rng(3);
+  std::vector<Cable> cables(1500);
+  for (Cable& cable : cables) {
+    cable.first_frame = static_cast<std::int64_t>(rng.below(26));
+    const double x = rng.uniform(0, 320), y = rng.uniform(0, 240), vx = 2 * rng.normal(), vy = 2 * rng.normal();
+    for (int t = 0; t < 5; ++t)
+      cable.core.push_back({BaseKind::kGaussian, x + t * vx + rng.normal(), y + t * vy + rng.normal(), 1.5, 0, {}});
+  }
+  EXPECT_TRUE(find_bursts(cables).empty());
+}
+
 TEST(BurstStatistics, SayHowBurstsLook) {
   SimulateFireworksOptions options;
   options.width = 200;
