@@ -59,9 +59,9 @@ struct MotifReport {
 /// R, the number of occurrences c and the significance come from one rule: in a series that moves likewise but repeats
 /// nothing (background_series(), the worse of two kinds) a match at least as close as the c-th comes λ(c) times; R lies
 /// where −ln P(Poisson(λ) ≥ c − 1) is greatest. What chance would bring less than `false_motifs` times among all
-/// patterns tried is a motif; the most significant comes first and its frames are taken. Motifs are mutually exclusive:
-/// no two share frames, and exemplars of one class lie in one motif (their distance is above 2R otherwise). [PT04]
-/// section 2.2
+/// patterns tried is a motif; what saves most (select_motifs(), MotifCode) comes first and its frames are taken. Motifs
+/// are mutually exclusive: no two share frames, and exemplars of one class lie in one motif (their distance is above 2R
+/// otherwise). [PT04] section 2.2
 ///
 /// Then whole actions are made of them (refine_motifs()): where no window is asked for, one that holds two like
 /// performances is halved and one that holds a part of an action grows; performances left over are gathered.
