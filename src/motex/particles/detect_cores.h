@@ -55,6 +55,7 @@ struct ExpectedBlob {
   bool is_seen =
       true;            ///< false = a guess (a gap, the frame before or after a path): taken only where the frame agrees
   int num_sights = 0;  ///< of its path
+  double turn_precision = 0;  ///< of blob.turn, 1 / variance; 0 = it is not known
 };
 
 /// Elements of one frame (residual = luma minus background) as Gaussian spots fitted jointly with their neighbours:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "motex/particles/blob_peaks.h"
 #include "motex/particles/shape_fit.h"
@@ -16,20 +17,24 @@ constexpr double kKeptGain = 0.25;      // of the energy of an element as it is 
 constexpr double kKeptAgreement = 0.2;  // share of the light under it
 constexpr double kGuessAgreement = 0.35;
 constexpr double kNewAgreement = 0.5;
-constexpr double kLeastGain = 60;    // of the squared error in squared noises
-constexpr double kFaintest = 0.35;   // of the usual amplitude
-constexpr double kNear = 2.5;        // scales of both: elements that may explain the same light
-constexpr double kNeeded = 0.4;      // of the energy of an element, by which it must lower the squared error
-constexpr double kApart = 0.6;       // scales between two elements, at least
-constexpr double kPopulation = 1.5;  // deviations of sizes and amplitudes, widened: learned from few
+constexpr double kLeastGain = 60;   // of the squared error in squared noises
+constexpr double kFaintest = 0.35;  // of the usual amplitude
+constexpr double kNear = 2.5;       // scales of both: elements that may explain the same light
+constexpr double kNeeded = 0.4;     // of the energy of an element, by which it must lower the squared error
+constexpr double kApart = 0.6;      // scales between two elements, at least
+constexpr std::pair<double, double> kOff[] = {
+    {-1, 0}, {0, 0}, {1, 0}, {0, -1.3}, {0, 1.3}};  // deviations of sizes, turns
+constexpr double kLevel = 0.01;                     // radians: turns that do not differ
+constexpr double kPopulation = 1.5;                 // deviations of sizes and amplitudes, widened: learned from few
 
 class ShapedDetector {
  public:
   ShapedDetector(const Plane& residual, const ElementShapes& shapes, const DetectOptions& options, double noise)
       : shapes_(shapes), options_(options), noise_(noise), fitter_(residual, shapes, shapes.noise) {
     const double scale = kPopulation * shapes.log_scale_deviation, amplitude = kPopulation * shapes.amplitude_deviation;
-    population_.mean = {0, 0, shapes.mean_log_scale, shapes.mean_amplitude};
-    population_.precision = {0, 0, 1 / (scale * scale), 1 / (amplitude * amplitude)};
+    const double turn = kPopulation * shapes.turn_deviation;
+    population_.mean = {0, 0, shapes.mean_log_scale, shapes.mean_amplitude, shapes.mean_turn};
+    population_.precision = {0, 0, 1 / (scale * scale), 1 / (amplitude * amplitude), 1 / (turn * turn)};
   }
 
   /// Those seen before all together first, since each is in the light of the others; then the guesses.
@@ -65,6 +70,7 @@ class ShapedDetector {
       blob.y = e.y;
       blob.log_scale += e.log_scale;
       blob.amplitude *= e.amplitude;
+      blob.turn = e.turn;
       blob.place_spread = e.place_spread;
       blob.log_scale_spread = e.log_scale_spread;
       blob.amplitude_spread = e.amplitude_spread * std::abs(shapes_.core.amplitude);
@@ -86,9 +92,9 @@ class ShapedDetector {
     if (one.prior.precision[2] <= 0) return prior;
     const double a = shapes_.core.amplitude;
     prior.mean = {one.prior.mean[0], one.prior.mean[1], one.prior.mean[2] - shapes_.core.log_scale,
-                  one.prior.mean[5] / a};
+                  one.prior.mean[5] / a, one.blob.turn};
     prior.precision = {one.prior.precision[0], one.prior.precision[1], one.prior.precision[2],
-                       one.prior.precision[5] * a * a};
+                       one.prior.precision[5] * a * a, std::max(one.turn_precision, population_.precision[4])};
     return prior;
   }
 
@@ -99,6 +105,7 @@ class ShapedDetector {
     element.y = is_known ? prior.mean[1] : one.blob.y;
     element.log_scale = is_known ? prior.mean[2] : one.blob.log_scale - shapes_.core.log_scale;
     element.amplitude = is_known ? prior.mean[3] : one.blob.amplitude / shapes_.core.amplitude;
+    element.turn = one.blob.turn;
     return element;
   }
 
@@ -132,12 +139,14 @@ class ShapedDetector {
     if (std::abs(peak.amplitude) < 0.5 * kFaintest * std::abs(shapes_.mean_amplitude)) return;
     ShapedElement best;
     double most = -1e300;
-    for (const double off : {-1.0, 0.0, 1.0}) {
+    for (const auto& [size, turn] : kOff) {
+      if (turn != 0 && shapes_.turn_deviation < kLevel) continue;
       ShapedElement one;
       one.x = peak.x;
       one.y = peak.y;
-      one.log_scale = shapes_.mean_log_scale + off * shapes_.log_scale_deviation;
+      one.log_scale = shapes_.mean_log_scale + size * shapes_.log_scale_deviation;
       one.amplitude = shapes_.mean_amplitude;
+      one.turn = shapes_.mean_turn + turn * shapes_.turn_deviation;
       const double gain = fitter_.try_one(one, population_);
       if (gain <= most) continue;
       most = gain;

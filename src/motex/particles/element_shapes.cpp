@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "motex/core/parallel.h"
@@ -20,8 +21,14 @@ constexpr double kFewestAlone = 0.27;   // share of all sights: where fewer do, 
 constexpr std::size_t kMost = 800;      // more are not looked at
 constexpr std::size_t kEachShape = 20;  // elements
 constexpr std::size_t kMostShapes = 8;
-constexpr double kIsolation = 3;  // |distance| > 3 · (scale + other scale)
-constexpr double kFromRim = 3;    // scales from the picture's edge
+constexpr double kIsolation = 3;        // |distance| > 3 · (scale + other scale)
+constexpr double kFromRim = 3;          // scales from the picture's edge
+constexpr double kTurnDeviation = 0.5;  // radians, before anything is known
+constexpr double kMostTurn = 0.8;       // as flight tells it
+constexpr double kClearly = 0.9;        // of the distance from the pictures without turns
+constexpr double kLevel = 0.11;         // deviation of turns up to which elements are level
+constexpr double kNoTurn = 1e-3;
+constexpr std::size_t kHeadingSights = 6;  // before and behind, that tell the direction of flight
 constexpr int kGroupings = 12;
 constexpr int kAlignments = 4;
 constexpr double kOutlying = 2.5;  // times the median distance from the picture of its group
@@ -35,6 +42,7 @@ struct Example {
   int frame = 0;
   ShapedElement element;
   ShapedPrior prior;
+  double heading = 0;  // direction of flight, radians
   std::vector<float> picture;
   double distance = 0;  // squared, from the picture of its group
 };
@@ -55,11 +63,13 @@ double value_between(const Plane& image, double x, double y) {
 
 std::vector<float> picture_of(const Plane& image, const ShapedElement& e) {
   std::vector<float> out(static_cast<std::size_t>(ShapeGrid::kSide) * ShapeGrid::kSide);
-  const double scale = std::exp(e.log_scale);
+  const double along = std::exp(e.log_scale) * std::cos(e.turn), across = std::exp(e.log_scale) * std::sin(e.turn);
   for (int row = 0; row < ShapeGrid::kSide; ++row)
-    for (int column = 0; column < ShapeGrid::kSide; ++column)
+    for (int column = 0; column < ShapeGrid::kSide; ++column) {
+      const double u = grid_value(column), v = grid_value(row);
       out[index_of(row, column)] = static_cast<float>(
-          value_between(image, e.x + grid_value(column) * scale, e.y + grid_value(row) * scale) / e.amplitude);
+          value_between(image, e.x + along * u - across * v, e.y + across * u + along * v) / e.amplitude);
+    }
   return out;
 }
 
@@ -69,6 +79,16 @@ double median_near(const std::vector<const Blob*>& path, std::size_t k, double B
   for (std::size_t i = first; i < end; ++i) values.push_back(path[i]->*field);
   return median(std::move(values));
 }
+
+/// Direction of a path around its k-th sight.
+double heading_at(const SightChain& chain, std::size_t k) {
+  const Sight &from = chain.sights[k > kHeadingSights ? k - kHeadingSights : 0],
+              &to = chain.sights[std::min(chain.sights.size() - 1, k + kHeadingSights)];
+  return std::atan2(to.y - from.y, to.x - from.x);
+}
+
+/// In (−π, π].
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 bool stands_alone(const Blob& blob, const std::vector<Blob>& others, int width, int height) {
   const double scale = blob.scale(), rim = kFromRim * scale;
@@ -98,9 +118,25 @@ class ShapeLearner {
     ElementShapes out;
     out.alone = alone_;
     if (examples_.size() < kFewest || alone_ < kFewestAlone) return out;
+    const std::vector<Example> collected = examples_;
+    out = learned();
+    if (out.turn_deviation > kLevel) return out;
+    examples_ = collected;  // turns would only blur the pictures
+    is_level_ = true;
+    for (Example& one : examples_) {
+      one.element.turn = 0;
+      one.prior.precision[4] = 1 / (kNoTurn * kNoTurn);
+    }
+    return learned();
+  }
+
+ private:
+  ElementShapes learned() {
+    ElementShapes out;
+    out.alone = alone_;
     describe(out);
-    start_groups();
-    for (int step = 0; step < kGroupings; ++step) regroup();
+    group();
+    if (!is_level_ && !are_turned()) turn_by_flight();
     for (int step = 0; step < kAlignments; ++step) {
       make_shapes(out);
       align(out);
@@ -108,13 +144,13 @@ class ShapeLearner {
       look_again();
       regroup();
     }
+    describe_turns(out);
     centre_core(out);
     make_shapes(out);
     judge(out);
     return out;
   }
 
- private:
   const Plane& image_of(const Example& one) const { return residuals_[static_cast<std::size_t>(one.frame)]; }
 
   void collect(std::size_t c, const SightChain& chain, const std::vector<std::vector<Blob>>& blobs) {
@@ -134,8 +170,10 @@ class ShapeLearner {
       one.element.log_scale = median_near(path, k, &Blob::log_scale);
       one.element.amplitude = median_near(path, k, &Blob::amplitude);
       const double a = one.element.amplitude;
-      one.prior.mean = {0, 0, one.element.log_scale, a};
-      one.prior.precision = {0, 0, 1 / (0.05 * 0.05), 1 / (0.1 * 0.1 * a * a)};
+      one.prior.mean = {0, 0, one.element.log_scale, a, 0};
+      one.prior.precision = {0, 0, 1 / (0.05 * 0.05), 1 / (0.1 * 0.1 * a * a), 1 / (kTurnDeviation * kTurnDeviation)};
+      one.heading = heading_at(chain, k);
+      one.element.turn = path[k]->turn;
       one.picture = picture_of(image, one.element);
       examples_.push_back(std::move(one));
     }
@@ -147,14 +185,58 @@ class ShapeLearner {
       scales.push_back(one.element.log_scale);
       amplitudes.push_back(one.element.amplitude);
     }
-    const auto spread = [](std::vector<double> values, double middle) {
-      for (double& value : values) value = std::abs(value - middle);
-      return 1.4826 * median(std::move(values));
-    };
     out.mean_log_scale = median(scales);
     out.log_scale_deviation = std::max(0.15, spread(scales, out.mean_log_scale));
     out.mean_amplitude = median(amplitudes);
     out.amplitude_deviation = std::max(0.15 * std::abs(out.mean_amplitude), spread(amplitudes, out.mean_amplitude));
+  }
+
+  void group() {
+    start_groups();
+    for (int step = 0; step < kGroupings; ++step) regroup();
+  }
+
+  /// Whether they were found by shapes, with their turns.
+  bool are_turned() const {
+    return std::any_of(examples_.begin(), examples_.end(), [](const Example& one) { return one.element.turn != 0; });
+  }
+
+  double median_distance() const {
+    std::vector<double> distances;
+    for (const Example& one : examples_) distances.push_back(one.distance);
+    return median(std::move(distances));
+  }
+
+  /// Turns as the flight leads up or down, where that makes pictures of a group more alike.
+  void turn_by_flight() {
+    double x = 0, y = 0;
+    for (const Example& one : examples_) {
+      x += std::cos(one.heading);
+      y += std::sin(one.heading);
+    }
+    const double usual = std::atan2(y, x), before = median_distance();
+    const std::vector<Example> level = examples_;
+    const std::vector<std::vector<float>> level_pictures = pictures_;
+    for (Example& one : examples_) {
+      one.element.turn = std::clamp(wrapped(one.heading - usual), -kMostTurn, kMostTurn);
+      one.picture = picture_of(image_of(one), one.element);
+    }
+    group();
+    if (median_distance() < kClearly * before) return;
+    examples_ = level;
+    pictures_ = level_pictures;
+  }
+
+  void describe_turns(ElementShapes& out) const {
+    std::vector<double> turns;
+    for (const Example& one : examples_) turns.push_back(one.element.turn);
+    out.mean_turn = median(turns);
+    out.turn_deviation = is_level_ ? kNoTurn : spread(std::move(turns), out.mean_turn);
+  }
+
+  static double spread(std::vector<double> values, double middle) {
+    for (double& value : values) value = std::abs(value - middle);
+    return 1.4826 * median(std::move(values));
   }
 
   static double distance(const std::vector<float>& a, const std::vector<float>& b) {
@@ -167,6 +249,7 @@ class ShapeLearner {
   void start_groups() {
     const std::size_t num = std::clamp<std::size_t>(examples_.size() / kEachShape, 1, kMostShapes);
     pictures_.assign(1, std::vector<float>(examples_[0].picture.size(), 0));
+    for (Example& one : examples_) one.element.shape = 0;
     average();
     std::vector<double> least(examples_.size(), 1e300);
     while (pictures_.size() < num) {
@@ -241,8 +324,9 @@ class ShapeLearner {
       const Example &a = examples_[i - 2], &b = examples_[i - 1], &c = examples_[i];
       if (a.chain != c.chain || c.frame - a.frame != 2) continue;
       const double scale = std::exp(b.element.log_scale);
-      const double dx = (a.element.x - 2 * b.element.x + c.element.x) / scale,
-                   dy = (a.element.y - 2 * b.element.y + c.element.y) / scale;
+      const double turn_cos = std::cos(b.element.turn) / scale, turn_sin = std::sin(b.element.turn) / scale;
+      const double ax = a.element.x - 2 * b.element.x + c.element.x, ay = a.element.y - 2 * b.element.y + c.element.y;
+      const double dx = turn_cos * ax + turn_sin * ay, dy = turn_cos * ay - turn_sin * ax;
       if (std::hypot(dx, dy) > kJump) continue;
       Eigen::VectorXd row = Eigen::VectorXd::Zero(num);
       row[a.element.shape] += 1;
@@ -256,10 +340,11 @@ class ShapeLearner {
     for (Example& one : examples_) move(one, shift(one.element.shape, 0), shift(one.element.shape, 1));
   }
 
-  void move(Example& one, double du, double dv) const {
-    const double scale = std::exp(one.element.log_scale);
-    one.element.x += scale * du;
-    one.element.y += scale * dv;
+  static void move(Example& one, double du, double dv) {
+    const double scale = std::exp(one.element.log_scale), c = std::cos(one.element.turn),
+                 s = std::sin(one.element.turn);
+    one.element.x += scale * (c * du - s * dv);
+    one.element.y += scale * (s * du + c * dv);
   }
 
   void look_again() {
@@ -303,6 +388,7 @@ class ShapeLearner {
   }
 
   double noise_, alone_ = 0;
+  bool is_level_ = false;  ///< turns are not learned
   const std::vector<Plane>& residuals_;
   std::vector<Example> examples_;
   std::vector<std::vector<float>> pictures_;
@@ -353,25 +439,21 @@ ShapeGrid::ShapeGrid(const std::vector<float>& values) : reach_(1), points_(valu
       point.along_u = (faded[index_of(row, column + 1)] - faded[index_of(row, column - 1)]) / kTwice;
       point.along_v = (faded[index_of(row + 1, column)] - faded[index_of(row - 1, column)]) / kTwice;
     }
-  find_spans();
+  find_extent();
 }
 
-void ShapeGrid::find_spans() {
-  const auto is_empty = [&](int row, int column) {
-    const Point& p = points_[index_of(row, column)];
-    return p.value == 0 && p.along_u == 0 && p.along_v == 0;
-  };
-  for (int row = 0; row + 1 < kSide; ++row) {
-    int first = kSide, last = -1;
+void ShapeGrid::find_extent() {
+  extent_ = {kReach, kReach, -kReach, -kReach};
+  for (int row = 0; row < kSide; ++row)
     for (int column = 0; column < kSide; ++column) {
-      if (is_empty(row, column) && is_empty(row + 1, column)) continue;
-      first = std::min(first, column);
-      last = column;
+      const Point& p = points_[index_of(row, column)];
+      if (p.value == 0 && p.along_u == 0 && p.along_v == 0) continue;
+      // Between the points: up to the neighbours of those that are something.
+      extent_.left = std::min(extent_.left, grid_value(column - 1));
+      extent_.right = std::max(extent_.right, grid_value(column + 1));
+      extent_.top = std::min(extent_.top, grid_value(row - 1));
+      extent_.bottom = std::max(extent_.bottom, grid_value(row + 1));
     }
-    // Between two points: up to the neighbours of those that are something.
-    spans_[static_cast<std::size_t>(row)] = {last < 0 ? kReach : grid_value(first - 1),
-                                             last < 0 ? -kReach : grid_value(last + 1)};
-  }
 }
 
 ElementShapes learn_element_shapes(const std::vector<Plane>& residuals, const std::vector<std::vector<Blob>>& blobs,

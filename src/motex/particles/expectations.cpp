@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kSureLength = 4;  // sights that a path needs before it says what to expect
 constexpr double kFarVariance = 0.5;    // pixels², of a place that is known well
+constexpr double kLeastTurn = 0.08;     // radians
 constexpr double kWidening = 1.5;       // of the deviations expected: paths may be wrong
 
 }  // namespace
@@ -79,6 +80,10 @@ void Expectations::set_prior(const SightChain& chain, const SmoothedPlace& place
       one.prior.mean[p] = typical(chain, k, p == 3 ? &Blob::e1 : &Blob::e2, spread);
       one.prior.precision[p] = 1 / std::max(0.04, wider * spread * spread);
     }
+  double turn_spread = 0;
+  one.blob.turn = typical(chain, k, &Blob::turn, turn_spread);
+  turn_spread = std::max(kLeastTurn, kWidening * turn_spread);
+  one.turn_precision = 1 / (turn_spread * turn_spread);
   if (one.is_seen) return;
   one.blob.x = place.x;
   one.blob.y = place.y;

@@ -13,14 +13,20 @@ namespace {
 
 constexpr int kLeastInside = 2;           // sights of an element with parts that are whole inside the picture
 constexpr std::size_t kLongestPart = 16;  // sights of a path that may be a part's
+constexpr double kWithin = 0.5;           // core scales: closer no two elements stay
+constexpr double kMostly = 0.7;           // share of its sights
 constexpr double kBeside = 4.5;           // core scales
 
 class PathsOfParts {
  public:
-  PathsOfParts(const BlobFrames& blobs, const ElementModel& model, int width, int height)
-      : blobs_(blobs), model_(model), edges_{static_cast<double>(width), static_cast<double>(height)} {}
+  PathsOfParts(BlobFrames& blobs, const ElementModel& model, int width, int height, bool are_turned)
+      : are_turned_(are_turned),
+        blobs_(blobs),
+        model_(model),
+        edges_{static_cast<double>(width), static_cast<double>(height)} {}
 
   void drop(std::vector<SightChain>& chains) const {
+    if (are_turned_) drop_twins(chains);
     std::vector<SightChain> kept;
     for (const SightChain& chain : chains)
       if (num_inside(chain) >= kLeastInside && !goes_beside(chain, chains)) kept.push_back(chain);
@@ -51,6 +57,41 @@ class PathsOfParts {
                       (1 - share) * before->y + share * after->y - sight.y);
   }
 
+  void drop_twins(std::vector<SightChain>& chains) const {
+    std::stable_sort(chains.begin(), chains.end(),
+                     [](const SightChain& a, const SightChain& b) { return a.sights.size() > b.sights.size(); });
+    std::vector<SightChain> kept;
+    for (const SightChain& chain : chains) {
+      const auto longer =
+          std::find_if(kept.begin(), kept.end(), [&](const SightChain& other) { return stays_within(chain, other); });
+      if (longer == kept.end())
+        kept.push_back(chain);
+      else
+        add_amplitudes(chain, *longer);
+    }
+    std::stable_sort(kept.begin(), kept.end(), [](const SightChain& a, const SightChain& b) {
+      return a.sights.front().frame < b.sights.front().frame;
+    });
+    chains = std::move(kept);
+  }
+
+  bool stays_within(const SightChain& chain, const SightChain& other) const {
+    std::size_t num_within = 0;
+    for (std::size_t k = 0; k < chain.sights.size(); ++k)
+      num_within += distance(other, chain.sights[k]) < kWithin * blob_at(blobs_, other, 0).scale() ? 1 : 0;
+    return static_cast<double>(num_within) > kMostly * static_cast<double>(chain.sights.size());
+  }
+
+  void add_amplitudes(const SightChain& from, const SightChain& to) const {
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < to.sights.size(); ++i) {
+      while (k < from.sights.size() && from.sights[k].frame < to.sights[i].frame) ++k;
+      if (k == from.sights.size() || from.sights[k].frame != to.sights[i].frame) continue;
+      const auto place = static_cast<std::size_t>(to.idx[i]);
+      blobs_[static_cast<std::size_t>(to.sights[i].frame)][place].amplitude += blob_at(blobs_, from, k).amplitude;
+    }
+  }
+
   bool goes_beside(const SightChain& chain, const std::vector<SightChain>& chains) const {
     const std::size_t num = chain.sights.size();
     if (num > kLongestPart) return false;
@@ -70,16 +111,17 @@ class PathsOfParts {
     return 2 * num_beside > num;
   }
 
-  const BlobFrames& blobs_;
+  bool are_turned_;
+  BlobFrames& blobs_;
   const ElementModel& model_;
   PictureEdges edges_;
 };
 
 }  // namespace
 
-void drop_paths_of_parts(std::vector<SightChain>& chains, const BlobFrames& blobs, const ElementModel& model, int width,
-                         int height) {
-  PathsOfParts(blobs, model, width, height).drop(chains);
+void drop_paths_of_parts(std::vector<SightChain>& chains, BlobFrames& blobs, const ElementModel& model, int width,
+                         int height, bool are_turned) {
+  PathsOfParts(blobs, model, width, height, are_turned).drop(chains);
 }
 
 }  // namespace motex

@@ -16,16 +16,30 @@ constexpr double kEnoughGain = 0.3;    // of the squared error in squared noises
 constexpr double kUnder = 0.1;         // of the amplitude: what lies under an element
 constexpr double kSettled = 0.05;      // scales: a shift that does not touch the neighbours
 
-std::array<double, 4> values_of(const ShapedElement& e) { return {e.x, e.y, e.log_scale, e.amplitude}; }
+using Matrix5 = Eigen::Matrix<double, 5, 5>;
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+
+std::array<double, 5> values_of(const ShapedElement& e) { return {e.x, e.y, e.log_scale, e.amplitude, e.turn}; }
 
 double prior_cost(const ShapedElement& element, const ShapedPrior& prior) {
-  const std::array<double, 4> values = values_of(element);
+  const std::array<double, 5> values = values_of(element);
   double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
     const double off = values[i] - prior.mean[i];
     sum += prior.precision[i] * off * off;
   }
   return sum;
+}
+
+/// Where low ≤ start + slope · d ≤ high, of first ≤ d ≤ last.
+void cut(double start, double slope, double low, double high, double& first, double& last) {
+  if (std::abs(slope) < 1e-9) {
+    if (start < low || start > high) last = first - 1;
+    return;
+  }
+  const double a = (low - start) / slope, b = (high - start) / slope;
+  first = std::max(first, std::min(a, b));
+  last = std::min(last, std::max(a, b));
 }
 
 }  // namespace
@@ -47,16 +61,18 @@ ShapeFitter::Box ShapeFitter::box_of(const ShapedElement& element) const {
 template <typename Visit>
 void ShapeFitter::for_each_pixel(const ShapedElement& element, const Visit& visit) const {
   const Box box = box_of(element);
-  const double scale = std::exp(element.log_scale), inverse = std::exp(-element.log_scale);
+  const double scale = std::exp(element.log_scale), inverse = 1 / scale;
+  const double along = std::cos(element.turn) * inverse, across = std::sin(element.turn) * inverse;
   const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
+  const ShapeGrid::Extent& extent = shape.extent();
   for (int y = box.top; y < box.bottom; ++y) {
-    const double v = (y - element.y) * inverse;
-    const auto [low, high] = shape.span(v);
-    if (low > high) continue;
-    const double first = std::max(element.x + low * scale, static_cast<double>(box.left)),
-                 last = std::min(element.x + high * scale, box.right - 1.0);
-    for (int x = static_cast<int>(first); x <= last; ++x) {
-      const double u = (x - element.x) * inverse;
+    // u and v go linearly along the row: where both are inside the extent.
+    const double dy = y - element.y, u_start = across * dy, v_start = along * dy;
+    double first = box.left - element.x, last = box.right - 1 - element.x;
+    cut(u_start, along, extent.left, extent.right, first, last);
+    cut(v_start, -across, extent.top, extent.bottom, first, last);
+    for (int x = static_cast<int>(std::ceil(element.x + first)); x <= element.x + last; ++x) {
+      const double dx = x - element.x, u = u_start + along * dx, v = v_start - across * dx;
       visit(x, y, u, v, shape.at(u, v));
     }
   }
@@ -80,22 +96,33 @@ double ShapeFitter::cost(const ShapedElement& element, const ShapedPrior& prior)
 
 double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int num_steps) const {
   double now = cost(element, prior), damping = 1e-3;
-  Eigen::Matrix4d curvature = Eigen::Matrix4d::Identity();
+  Matrix5 curvature = Matrix5::Identity();
   for (int step = 0; step < num_steps; ++step) {
     const double inverse = std::exp(-element.log_scale), a = element.amplitude;
-    curvature.setZero();
-    Eigen::Vector4d slope = Eigen::Vector4d::Zero();
+    const double c = std::cos(element.turn) * inverse, s = std::sin(element.turn) * inverse;
+    std::array<double, 15> products{};  // lower triangle
+    std::array<double, 5> slopes{};
     for_each_pixel(element, [&](int x, int y, double u, double v, const ShapeGrid::Point& p) {
       const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
       const auto value = static_cast<double>(p.value);
-      const Eigen::Vector4d d(-a * inverse * along_u, -a * inverse * along_v, -a * (u * along_u + v * along_v), value);
-      curvature.noalias() += d * d.transpose();
-      slope += d * (static_cast<double>(left_.at(x, y)) - a * value);
+      if (value == 0 && along_u == 0 && along_v == 0) return;
+      const std::array<double, 5> d{-a * (c * along_u - s * along_v), -a * (s * along_u + c * along_v),
+                                    -a * (u * along_u + v * along_v), value, a * (v * along_u - u * along_v)};
+      const double rest = static_cast<double>(left_.at(x, y)) - a * value;
+      for (std::size_t i = 0, k = 0; i < 5; ++i) {
+        slopes[i] += d[i] * rest;
+        for (std::size_t j = 0; j <= i; ++j, ++k) products[k] += d[i] * d[j];
+      }
     });
-    curvature /= noise_ * noise_;
-    slope /= noise_ * noise_;
-    const std::array<double, 4> values = values_of(element);
-    for (int i = 0; i < 4; ++i) {
+    const double weight = 1 / (noise_ * noise_);
+    Vector5 slope;
+    for (int i = 0, k = 0; i < 5; ++i) {
+      slope[i] = weight * slopes[static_cast<std::size_t>(i)];
+      for (int j = 0; j <= i; ++j, ++k)
+        curvature(i, j) = curvature(j, i) = weight * products[static_cast<std::size_t>(k)];
+    }
+    const std::array<double, 5> values = values_of(element);
+    for (int i = 0; i < 5; ++i) {
       const auto k = static_cast<std::size_t>(i);
       curvature(i, i) += prior.precision[k] + 1e-9;
       slope[i] -= prior.precision[k] * (values[k] - prior.mean[k]);
@@ -103,15 +130,16 @@ double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int 
     bool is_better = false;
     double saved = 0;
     while (!is_better && damping < 1e4) {
-      Eigen::Matrix4d damped = curvature;
+      Matrix5 damped = curvature;
       damped.diagonal() *= 1 + damping;
-      const Eigen::Vector4d change = damped.ldlt().solve(slope);
+      const Vector5 change = damped.ldlt().solve(slope);
       const double scale = std::exp(element.log_scale);
       ShapedElement next = element;
       next.x += std::clamp(change[0], -0.7 * scale, 0.7 * scale);
       next.y += std::clamp(change[1], -0.7 * scale, 0.7 * scale);
       next.log_scale += std::clamp(change[2], -0.3, 0.3);
       next.amplitude += change[3];
+      next.turn += std::clamp(change[4], -0.3, 0.3);
       const double then = cost(next, prior);
       is_better = then < now;
       damping *= is_better ? 0.2 : 10;
@@ -122,7 +150,7 @@ double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int 
     }
     if (saved < kEnoughGain) break;
   }
-  const Eigen::Matrix4d covariance = curvature.ldlt().solve(Eigen::Matrix4d::Identity());
+  const Matrix5 covariance = curvature.ldlt().solve(Matrix5::Identity());
   element.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
   element.log_scale_spread = std::sqrt(std::max(0.0, covariance(2, 2)));
   element.amplitude_spread = std::sqrt(std::max(0.0, covariance(3, 3)));

@@ -22,6 +22,9 @@ constexpr int kReachOut = 2;                   // frames before and after a path
 constexpr int kFarthest = 16;                  // frames before and after it where its place is known well
 constexpr int kReachOutShaped = 6;             // the same for elements whose shapes are known
 constexpr int kShapedRounds = 3;
+constexpr int kShapePasses = 2;
+constexpr double kNearlyAsLong = 0.9;  // paths of whole elements stay unless they are in more pieces than before
+constexpr double kCoarse = 0.97;  // share of light explained, below which shapes are learned again from what they found
 constexpr double kHasParts = 0.06;      // shape_misfit from which elements are no single spots
 constexpr double kWellExplained = 0.8;  // share of their light that shapes must explain to be used
 constexpr double kCrowd = 100;          // elements a frame from which those that stand alone are odd ones
@@ -134,12 +137,15 @@ class Tracker {
 
   std::vector<Cable> run(TrackElementsReport& report) {
     follow(options_.rounds);
-    if (learn_shapes()) {
+    for (int pass = 0; pass < kShapePasses && needs_shapes() && learn_shapes(); ++pass) {
       Followed spots = now_;
       now_.chains.clear();  // paths of single spots say little of elements with parts
       renew_background();
       follow(kShapedRounds);
-      if (mean_length(now_.chains) < mean_length(spots.chains)) now_ = std::move(spots);
+      if (mean_length(now_.chains) < kNearlyAsLong * mean_length(spots.chains)) {
+        now_ = std::move(spots);
+        break;
+      }
     }
     report.detections_per_frame = sights_per_frame(now_.blobs);
     std::vector<Cable> cables = finished();
@@ -212,8 +218,13 @@ class Tracker {
     const ElementModel before = now_.link.model;
     now_.chains = link_chains(sights_of(now_.blobs), clip_.width, clip_.height, options_.link,
                               num_looks_++ > 0 ? &before : nullptr, now_.link, job_);
-    if (has_shapes()) drop_paths_of_parts(now_.chains, now_.blobs, now_.link.model, clip_.width, clip_.height);
+    if (has_shapes())
+      drop_paths_of_parts(now_.chains, now_.blobs, now_.link.model, clip_.width, clip_.height,
+                          shapes_.turn_deviation > 0.01);
   }
+
+  /// Shapes learned from spots may be mixed with neighbours that the spots did not tell apart.
+  bool needs_shapes() const { return !has_shapes() || shapes_.explained < kCoarse; }
 
   bool learn_shapes() {
     if (detect_.shape_misfit <= kHasParts || sights_per_frame(now_.blobs) >= kCrowd) return false;
