@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kLeastResidual = 1e-3;
 constexpr double kResolution = 0.02;  // of the largest deviation: what is below it is not told apart
-constexpr double pi = std::numbers::pi;
+constexpr double kPi = std::numbers::pi;
 
 /// Sum of the products of the differences x(t + lag) − x(t) where both are known.
 Matrix difference_products(const FrameMatrix& series, const std::vector<double>& level, Index lag) {
@@ -30,7 +30,7 @@ Matrix difference_products(const FrameMatrix& series, const std::vector<double>&
 double degrees_of_freedom(const FrameMatrix& series, const std::vector<double>& level, Index lag) {
   const Matrix near = difference_products(series, level, 1), far = difference_products(series, level, lag);
   if (!(far.trace() > 0)) return 1;
-  const double per_frame = std::min(1.0, std::sqrt(2 * near.trace() / far.trace() / pi));
+  const double per_frame = std::min(1.0, std::sqrt(2 * near.trace() / far.trace() / kPi));
   return per_frame * far.trace() * far.trace() / far.squaredNorm();
 }
 

@@ -18,7 +18,8 @@ namespace motex {
 /// ones, one action and two.
 class MotifCode {
  public:
-  /// level: of each frame the deviation about it, in `window` frames, in the units of the series; −1 = not known.
+  /// level: √v, in the units of the series; −1 = not known. window: frames, twice the lag of the differences that ν
+  /// is estimated from.
   MotifCode(const FrameMatrix& series, const std::vector<double>& level, int window);
   /// By one performance in frames start … start + length − 1; 1 − ρ² counts as 0.001 at least.
   double saved(int start, int length, double correlation) const;
