@@ -15,6 +15,7 @@
 #include "motex/particles/bird_painter.h"
 #include "motex/particles/birth_death.h"
 #include "motex/particles/edit.h"
+#include "motex/particles/stray_light.h"
 #include "motex/particles/water_synthesis.h"
 #include "motex/project/moveton_edits_file.h"
 #include "motex/project/particle_styles.h"
@@ -216,7 +217,8 @@ struct Synthesize {
       if (planes.size() == 1 && base_planes(model) == 3) planes = Planes(3, planes[0]);
       if (draw.three_d) return std::make_unique<BirdPainter>(model, std::move(planes), draw.scale, flight);
       if (model.water) return std::make_unique<WaterPainter>(model, std::move(planes), draw.scale, options.seed);
-      return std::make_unique<PhotoPainter>(std::move(planes), draw.scale, base_planes(model));
+      return std::make_unique<PhotoPainter>(std::move(planes), draw.scale, base_planes(model),
+                                            element_light(options.looks_of != nullptr ? *options.looks_of : model));
     }
     const DrawnStyle drawn = draw.style == Style::kSymbolic ? DrawnStyle::kSymbolic : DrawnStyle::kCartoon;
     if (picture == nullptr) return std::make_unique<StylePainter>(model, drawn, draw.scale);

@@ -19,6 +19,7 @@
 #include "motex/particles/frame_painter.h"
 #include "motex/particles/learn.h"
 #include "motex/particles/simulate.h"
+#include "motex/particles/stray_light.h"
 #include "motex/particles/synthesize.h"
 #include "motex/particles/water_synthesis.h"
 #include "motex/project/base_sketch.h"
@@ -162,7 +163,7 @@ inline std::vector<Image> synthesized_pictures(const Scene& scene, const Synthes
     painter = std::make_unique<WaterPainter>(scene.model, scene.model.background, 1, options.seed);
   } else {
     source = std::make_unique<CableSynthesizer>(scene.model, options);
-    painter = std::make_unique<PhotoPainter>(scene.model.background, 1);
+    painter = std::make_unique<PhotoPainter>(scene.model.background, 1, 3, element_light(scene.model));
   }
   std::vector<Image> pictures;
   MovetonFrame frame;

@@ -64,6 +64,13 @@ void fill_transparent(Image& layer) {
     }
 }
 
+void limit_light(const Plane& background, const ElementLight& light, Plane& sum) {
+  if (std::isinf(light.darkest) && std::isinf(light.brightest)) return;
+  for (std::size_t i = 0; i < sum.values.size(); ++i)
+    sum.values[i] =
+        std::clamp(sum.values[i], background.values[i] + light.darkest, background.values[i] + light.brightest);
+}
+
 void fit(Image& image, int width, int height) {
   if (image.width != width || image.height != height) image = Image(width, height);
 }
@@ -96,8 +103,8 @@ void make_layer(const Image& picture, const Image& background, Image& layer) {
   fill_transparent(layer);
 }
 
-PhotoPainter::PhotoPainter(Planes background, double magnification, int num_base_planes)
-    : background_(std::move(background)), renderer_(magnification, num_base_planes) {
+PhotoPainter::PhotoPainter(Planes background, double magnification, int num_base_planes, const ElementLight& light)
+    : background_(std::move(background)), renderer_(magnification, num_base_planes), light_(light) {
   fill_image(background_, background_image_);
   sum_ = background_;
 }
@@ -106,6 +113,7 @@ void PhotoPainter::paint(const MovetonFrame& frame, Image& picture, Image& layer
   for (std::size_t k = 0; k < sum_.size(); ++k)
     std::copy(background_[k].values.begin(), background_[k].values.end(), sum_[k].values.begin());
   renderer_.add(frame.bases, sum_);
+  for (std::size_t k = 0; k < sum_.size(); ++k) limit_light(background_[k], light_, sum_[k]);
   fill_image(sum_, picture);
   make_layer(picture, background_image_, layer);
 }

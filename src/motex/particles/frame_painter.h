@@ -4,6 +4,7 @@
 
 #include "motex/image/image.h"
 #include "motex/image/planes.h"
+#include "motex/particles/element_light.h"
 #include "motex/particles/moveton_frame.h"
 #include "motex/particles/render.h"
 
@@ -22,13 +23,15 @@ class FramePainter {
 class PhotoPainter : public FramePainter {
  public:
   /// background: 1 or 3 planes, of the magnified size. num_base_planes: coefficients that bases have.
-  PhotoPainter(Planes background, double magnification, int num_base_planes = 3);
+  /// light: no pixel gets less or more of it; stray bases would be specks.
+  PhotoPainter(Planes background, double magnification, int num_base_planes = 3, const ElementLight& light = {});
   void paint(const MovetonFrame& frame, Image& picture, Image& layer) override;
 
  private:
   Planes background_, sum_;
   Image background_image_;
   BaseRenderer renderer_;
+  ElementLight light_;
 };
 
 /// The most transparent layer whose source-over onto `background` gives `picture`, both opaque and of one size:

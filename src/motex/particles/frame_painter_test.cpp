@@ -6,6 +6,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/particles/cable.h"
 
 namespace motex {
 namespace {
@@ -76,6 +77,18 @@ TEST(PhotoPainter, LayerOverTheBackgroundIsThePicture) {
   EXPECT_LT(psnr(composed, picture), 40) << "something was drawn";
   paste(composed, layer, 0, 0);
   EXPECT_GT(psnr(composed, picture), 1000) << "infinite: every pixel equal";
+}
+
+TEST(PhotoPainter, NoPixelGetsMoreLightThanElementsHave) {
+  Base bright{BaseKind::kGaussian, 20, 20, 3, 0, {}}, dark{BaseKind::kGaussian, 50, 20, 3, 0, {}};
+  for (float& c : bright.coefficients) c = static_cast<float>(coefficient_of_peak(bright, 90));
+  for (float& c : dark.coefficients) c = static_cast<float>(coefficient_of_peak(dark, -90));
+  MovetonFrame frame;
+  frame.bases = {bright, dark};
+  Image picture, layer;
+  PhotoPainter(Planes(3, Plane(70, 40, 100)), 1, 3, {-200, 5}).paint(frame, picture, layer);
+  EXPECT_EQ(picture.at(20, 20).g, 105);
+  EXPECT_NEAR(picture.at(50, 20).g, 10, 2);
 }
 
 }  // namespace

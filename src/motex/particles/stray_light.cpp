@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <utility>
 
+#include "motex/core/quantile.h"
+#include "motex/particles/carry_bases.h"
 #include "motex/particles/render.h"
 
 namespace motex {
@@ -14,8 +18,11 @@ namespace {
 constexpr std::size_t kMostSamples = 6;  // frames of a cable
 constexpr int kReach = 16;               // pixels around the core that are looked at
 constexpr double kOneSign = 0.75;        // of the light, for a clip of one sign
-constexpr double kStray = 0.3;           // of the strongest light of the right sign
-constexpr double kOften = 0.25;          // of the frames
+constexpr std::int64_t kMostPictures = 12;
+constexpr float kSeen = 1;       // grey level: light that shows
+constexpr double kUsual = 0.95;  // of light of the wrong sign
+constexpr double kStray = 0.3;   // of the strongest light of the right sign
+constexpr double kOften = 0.25;  // of the frames
 
 std::vector<std::size_t> sampled_frames(const Cable& cable) {
   const std::size_t num = std::min(kMostSamples, cable.core.size());
@@ -73,6 +80,29 @@ std::vector<char> find_stray_light(const TexturedMotion& model) {
     is_stray[k] = num_stray > kOften * static_cast<double>(seen[k].size()) ? 1 : 0;
   }
   return is_stray;
+}
+
+ElementLight element_light(const TexturedMotion& model) {
+  std::vector<double> dark, bright;
+  BaseRenderer renderer(1, model.num_planes);
+  const std::int64_t num = std::min<std::int64_t>(kMostPictures, model.num_frames);
+  for (std::int64_t k = 0; k < num; ++k) {
+    const std::int64_t frame = (2 * k + 1) * model.num_frames / (2 * num);
+    Planes light(static_cast<std::size_t>(model.num_planes), Plane(model.width, model.height));
+    renderer.add(bases_in_frame(model.cables, frame, model.width, model.height, model.num_planes).bases, light);
+    for (const Plane& plane : light)
+      for (const float value : plane.values)
+        if (std::abs(value) > kSeen) (value < 0 ? dark : bright).push_back(std::abs(value));
+  }
+  const double all_dark = std::accumulate(dark.begin(), dark.end(), 0.0);
+  const double all_bright = std::accumulate(bright.begin(), bright.end(), 0.0);
+  ElementLight limits;
+  const auto usual = [](std::vector<double>& of) {
+    return of.empty() ? kSeen : static_cast<float>(quantile(std::move(of), kUsual));
+  };
+  if (all_dark >= kOneSign * (all_dark + all_bright) && all_dark > 0) limits.brightest = usual(bright);
+  if (all_bright >= kOneSign * (all_dark + all_bright) && all_bright > 0) limits.darkest = -usual(dark);
+  return limits;
 }
 
 }  // namespace motex

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace motex {
 namespace {
 
@@ -40,6 +42,23 @@ TEST(StrayLight, NoneWhereElementsAreDarkAndBright) {
   for (int k = 0; k < 4; ++k) model.cables.push_back(bird(k % 2 == 0 ? -80 : 80, 12, k % 2 == 0 ? 60 : -60));
   for (const char is_stray : find_stray_light(model)) EXPECT_EQ(is_stray, 0);
   EXPECT_TRUE(find_stray_light({}).empty());
+}
+
+TEST(ElementLight, LimitsTheSignThatIsRare) {
+  TexturedMotion model;
+  model.width = 80, model.height = 60, model.num_frames = 20, model.num_planes = 1;
+  model.cables.assign(6, bird(-80, 5, -40));
+  model.cables.push_back(bird(-60, 14, 20));
+  ElementLight light = element_light(model);
+  EXPECT_TRUE(std::isinf(light.darkest));
+  EXPECT_GT(light.brightest, 0);
+  EXPECT_LE(light.brightest, 20);
+  model.cables.assign(1, bird(-60, 14, 60));
+  light = element_light(model);
+  EXPECT_TRUE(std::isinf(light.darkest) && std::isinf(light.brightest));
+  model.cables.clear();
+  light = element_light(model);
+  EXPECT_TRUE(std::isinf(light.darkest) && std::isinf(light.brightest));
 }
 
 }  // namespace
