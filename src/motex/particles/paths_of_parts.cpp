@@ -77,8 +77,8 @@ class PathsOfParts {
 
   bool stays_within(const SightChain& chain, const SightChain& other) const {
     std::size_t num_within = 0;
-    for (std::size_t k = 0; k < chain.sights.size(); ++k)
-      num_within += distance(other, chain.sights[k]) < kWithin * blob_at(blobs_, other, 0).scale() ? 1 : 0;
+    for (const auto& sight : chain.sights)
+      num_within += distance(other, sight) < kWithin * blob_at(blobs_, other, 0).scale() ? 1 : 0;
     return static_cast<double>(num_within) > kMostly * static_cast<double>(chain.sights.size());
   }
 
