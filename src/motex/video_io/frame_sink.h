@@ -8,6 +8,7 @@
 
 #include "motex/core/job.h"
 #include "motex/image/image.h"
+#include "motex/video_io/video_writer.h"
 
 namespace motex {
 
@@ -19,12 +20,8 @@ class FrameSink {
   virtual void finish() = 0;
 };
 
-struct SinkShape {
+struct SinkShape : WriteVideoOptions {
   int width = 0, height = 0;
-  double frames_per_sec = 25;
-  bool alpha = false;
-  bool for_storage = false;
-  double pixel_aspect = 1;
 };
 
 std::unique_ptr<FrameSink> make_libav_sink(const std::filesystem::path& path, const SinkShape& shape,

@@ -29,10 +29,6 @@ void check_shape(const std::filesystem::path& path, const SinkShape& shape) {
     throw InvalidInput(path.string() + ": the aspect of a pixel must be 0.01 … 100");
 }
 
-SinkShape shape_of(int width, int height, const WriteVideoOptions& options) {
-  return {width, height, options.frames_per_sec, options.alpha, options.for_storage, options.pixel_aspect};
-}
-
 std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const SinkShape& shape, const JobContext& job) {
   check_shape(path, shape);
   return is_for_pictures(path) ? make_picture_sink(path, shape) : make_libav_sink(path, shape, job);
@@ -42,7 +38,7 @@ std::unique_ptr<FrameSink> make_sink(const std::filesystem::path& path, const Si
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, int width, int height, const WriteVideoOptions& options,
                          const JobContext& job)
-    : VideoWriter(make_sink(path, shape_of(width, height, options), job), width, height, options.frames_per_sec, job) {}
+    : VideoWriter(make_sink(path, {options, width, height}, job), width, height, options.frames_per_sec, job) {}
 
 VideoWriter::VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height, double frames_per_sec,
                          const JobContext& job)
@@ -50,7 +46,7 @@ VideoWriter::VideoWriter(std::unique_ptr<FrameSink> sink, int width, int height,
 
 VideoWriter VideoWriter::to_bytes(std::string& bytes, const std::string& extension, int width, int height,
                                   const WriteVideoOptions& options, const JobContext& job) {
-  const SinkShape shape = shape_of(width, height, options);
+  const SinkShape shape{options, width, height};
   const std::string name = "video in memory" + extension;
   check_shape(name, shape);
   return {make_libav_sink(bytes, name, shape, job), width, height, options.frames_per_sec, job};
