@@ -152,10 +152,10 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
       if (v > 0) known.push_back(v);
     out.scale.push_back(known.empty() ? 0 : quantile(std::move(known), 0.95));
   }
-  out.level = levels(deviation, out.scale, num_frames);
+  const std::vector<double> level = levels(deviation, out.scale, num_frames);
   std::vector<double> logarithms;
-  for (const double level : out.level)
-    if (level > 0) logarithms.push_back(std::log(level));
+  for (const double one : level)
+    if (one > 0) logarithms.push_back(std::log(one));
   double threshold = 0;
   if (logarithms.size() > 2) {
     const Split split = otsu(logarithms);
@@ -164,10 +164,10 @@ Activity find_activity(const FrameMatrix& given, int window, int drift, const st
     if (out.two_levels) threshold = std::exp(split.threshold);
   }
   out.active.assign(num_frames, 0);
-  for (std::size_t frame = 0; frame < num_frames; ++frame) out.active[frame] = out.level[frame] > threshold ? 1 : 0;
+  for (std::size_t frame = 0; frame < num_frames; ++frame) out.active[frame] = level[frame] > threshold ? 1 : 0;
   const int brief = std::max(kFewestFrames, static_cast<int>(std::lround(kBrief * window)));
   out.brief_level = levels(deviations(series, parts, brief, largest), out.scale, num_frames);
-  out.idle = out.two_levels ? low_runs(out.level, threshold, window)
+  out.idle = out.two_levels ? low_runs(level, threshold, window)
                             : low_runs(out.brief_level, kStill, static_cast<int>(std::lround(kShortestStill * window)));
   return out;
 }

@@ -13,10 +13,9 @@ namespace motex {
 struct Activity {
   std::vector<unsigned char> active;  ///< frame by frame; numbers that are not finite are not active
   std::vector<FrameSpan> idle;        ///< where nothing, or next to nothing, happens
-  std::vector<double> level;          ///< of each frame: the deviation about it, in units of `scale`; −1 = not known
-  std::vector<double> brief_level;    ///< likewise, in 0.4 windows
-  std::vector<double> scale;          ///< of each signal: 95th percentile of its deviation in a window
-  bool two_levels = false;            ///< idle and active stretches were told apart
+  std::vector<double> brief_level;  ///< of each frame: deviation in 0.4 windows, in units of `scale`; −1 = not known
+  std::vector<double> scale;        ///< of each signal: 95th percentile of its deviation in a window
+  bool two_levels = false;          ///< idle and active stretches were told apart
 };
 
 /// Deviation in a window around each frame of what is left when the mean over `drift` frames on both sides is taken

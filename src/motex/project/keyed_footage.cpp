@@ -187,9 +187,9 @@ void KeyedFootage::take_notes(const KeyedFrame& frame) {
   for (const PremultipliedRgba& pixel : frame.sprite.pixels) area += pixel[3];
   report_.mean_area += (area / 255 / size - report_.mean_area) / static_cast<double>(report_.num_frames);
   if (!frame.sprite.empty()) {
-    report_.left = std::min(report_.left, frame.sprite.left);
-    report_.right = std::max(report_.right, frame.sprite.left + frame.sprite.width - 1);
-    report_.widths.push_back(frame.sprite.width);
+    left_ = std::min(left_, frame.sprite.left);
+    right_ = std::max(right_, frame.sprite.left + frame.sprite.width - 1);
+    widths_.push_back(frame.sprite.width);
   }
   if (covered_border(frame.sprite, info().width, info().height) <= 0.5) return;
   ++report_.num_crowded;
@@ -197,12 +197,11 @@ void KeyedFootage::take_notes(const KeyedFrame& frame) {
 }
 
 void KeyedFootage::tell_of_place() {
-  if (report_.widths.empty() || !first_plate_ || first_plate_->kind != ScreenKind::kNatural ||
-      !plate_picture_.pixels.empty())
+  if (widths_.empty() || !first_plate_ || first_plate_->kind != ScreenKind::kNatural || !plate_picture_.pixels.empty())
     return;
-  if (report_.right - report_.left + 1 > kStays * quantile(report_.widths, 0.9)) return;
-  job_.warn(video_.string() + ": who is in it stays between x " + std::to_string(report_.left) + " and " +
-            std::to_string(report_.right) +
+  if (right_ - left_ + 1 > kStays * quantile(widths_, 0.9)) return;
+  job_.warn(video_.string() + ": who is in it stays between x " + std::to_string(left_) + " and " +
+            std::to_string(right_) +
             "; what stood still there most of the time is taken for the background and missing in the matte: give a "
             "picture of the empty scene (--plate), or film the actor coming in");
 }

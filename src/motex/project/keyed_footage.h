@@ -45,9 +45,7 @@ struct KeyFootageReport {
   std::int64_t num_empty = 0;    ///< frames in which nobody is
   std::int64_t num_crowded = 0;  ///< frames in which more than half of the border is covered: the scene changed
   std::int64_t first_crowded = -1;
-  double mean_area = 0;                                    ///< of alpha, share of the frame
-  int left = std::numeric_limits<int>::max(), right = -1;  ///< first and last column where someone was seen
-  std::vector<double> widths;                              ///< of what was seen in each frame with someone, pixels
+  double mean_area = 0;  ///< of alpha, share of the frame
 };
 
 /// A video keyed frame by frame in two passes: the first looks for hard cuts and takes frames for the clean plate as
@@ -110,6 +108,8 @@ class KeyedFootage {
   std::vector<KeyedFrame> keyed_;
   std::size_t next_ = 0;
   KeyFootageReport report_;
+  int left_ = std::numeric_limits<int>::max(), right_ = -1;  // first and last column where someone was seen
+  std::vector<double> widths_;                               // of what was seen in each frame with someone, pixels
 };
 
 /// The picture as a garbage mask: what is opaque where it has alpha, else what is brighter than half.
