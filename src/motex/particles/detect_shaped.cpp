@@ -24,7 +24,6 @@ constexpr double kNeeded = 0.4;     // of the energy of an element, by which it 
 constexpr double kApart = 0.6;      // scales between two elements, at least
 constexpr std::pair<double, double> kOff[] = {
     {-1, 0}, {0, 0}, {1, 0}, {0, -1.3}, {0, 1.3}};  // deviations of sizes, turns
-constexpr double kLevel = 0.01;                     // radians: turns that do not differ
 constexpr double kPopulation = 1.5;                 // deviations of sizes and amplitudes, widened: learned from few
 
 class ShapedDetector {
@@ -140,7 +139,7 @@ class ShapedDetector {
     ShapedElement best;
     double most = -1e300;
     for (const auto& [size, turn] : kOff) {
-      if (turn != 0 && shapes_.turn_deviation < kLevel) continue;
+      if (turn != 0 && !shapes_.are_turned()) continue;
       ShapedElement one;
       one.x = peak.x;
       one.y = peak.y;

@@ -79,6 +79,9 @@ struct ElementShapes {
   double alone = 0;      ///< share of the sights that stand alone
   double noise = 1;      ///< deviation of a pixel from the elements learned from and background
   double explained = 0;  ///< share of their light
+
+  /// Elements lean differently, so that their turns are fitted.
+  bool are_turned() const { return turn_deviation > 0.01; }
 };
 
 /// Shapes from elements that stand alone: their pictures, scaled, in up to eight groups; places and turns are changed

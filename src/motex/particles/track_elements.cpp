@@ -219,8 +219,7 @@ class Tracker {
     now_.chains = link_chains(sights_of(now_.blobs), clip_.width, clip_.height, options_.link,
                               num_looks_++ > 0 ? &before : nullptr, now_.link, job_);
     if (has_shapes())
-      drop_paths_of_parts(now_.chains, now_.blobs, now_.link.model, clip_.width, clip_.height,
-                          shapes_.turn_deviation > 0.01);
+      drop_paths_of_parts(now_.chains, now_.blobs, now_.link.model, clip_.width, clip_.height, shapes_.are_turned());
   }
 
   /// Shapes learned from spots may be mixed with neighbours that the spots did not tell apart.
