@@ -22,8 +22,17 @@ extern "C" {
 namespace motex::libav {
 namespace {
 
+/// A damaged file may say a colour space or range that the enumeration does not have; as a number it may be compared.
+template <class Enumeration>
+int number_said(const Enumeration& said) {
+  int number = 0;
+  static_assert(sizeof said == sizeof number);
+  std::memcpy(&number, &said, sizeof number);
+  return number;
+}
+
 int matrix_of(const AVFrame& frame) {
-  switch (frame.colorspace) {
+  switch (number_said(frame.colorspace)) {
     case AVCOL_SPC_BT709:
       return SWS_CS_ITU709;
     case AVCOL_SPC_FCC:
@@ -61,11 +70,12 @@ AVPixelFormat plain_format(AVPixelFormat format) {
 
 bool is_full_range(const AVFrame& frame) {
   const auto format = static_cast<AVPixelFormat>(frame.format);
-  if (plain_format(format) != format || frame.color_range == AVCOL_RANGE_JPEG) return true;
+  const int said = number_said(frame.color_range);
+  if (plain_format(format) != format || said == AVCOL_RANGE_JPEG) return true;
   const AVPixFmtDescriptor* description = av_pix_fmt_desc_get(format);
   const bool is_rgb = description != nullptr && (description->flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
   if (is_rgb) return true;
-  return description != nullptr && description->nb_components <= 2 && frame.color_range != AVCOL_RANGE_MPEG;
+  return description != nullptr && description->nb_components <= 2 && said != AVCOL_RANGE_MPEG;
 }
 
 /// Where the pixel shown at (x, y) of the turned picture is stored in one of width × height.
