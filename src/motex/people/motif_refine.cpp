@@ -7,7 +7,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "motex/people/chance_rate.h"
+#include "motex/people/motif_gather.h"
+#include "motex/people/motif_occurrences.h"
 
 namespace motex {
 namespace {
@@ -17,19 +18,6 @@ constexpr double kMoves = 0.05;      // variance in a piece / in the window: les
 constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
 constexpr double kPieceSecs = 0.2;
 constexpr double kSharedPiece = 0.2;  // with another performance: that piece is not free
-
-int middle(const Occurrence& one) { return one.start + one.length / 2; }
-bool is_taken(const std::vector<Motif>& motifs, const Occurrence& place) {
-  return std::any_of(motifs.begin(), motifs.end(), [&](const Motif& m) { return is_taken(m.occurrences, place); });
-}
-bool whole(const MotifSearch& search, const Occurrence& one) { return search.frames.whole(one.start, one.length); }
-
-Pattern mean_of(const MotifSearch& search, const std::vector<Occurrence>& all, int window) {
-  Pattern sum = Pattern::Zero(window, search.series.cols());
-  for (const Occurrence& one : all)
-    if (whole(search, one)) sum += search.frames.pattern(one.start, one.length, window);
-  return stretched(sum, window);
-}
 
 /// Every occurrence is laid anew on the mean of all.
 void align(const MotifSearch& search, Motif& motif) {
@@ -219,64 +207,13 @@ void share_out(const MotifSearch& search, std::vector<Motif>& motifs) {
   for (Motif& motif : motifs) {
     std::vector<Occurrence> own;
     for (const Occurrence& one : motif.occurrences) {
-      if (!is_taken(own, one) && !is_taken(kept, one)) own.push_back(one);
+      if (is_free(search, own, one) && is_free(search, kept, one)) own.push_back(one);
     }
     motif.occurrences = std::move(own);
     if (!verify(search, motif)) continue;
     kept.push_back(std::move(motif));
   }
   motifs = std::move(kept);
-}
-
-/// Mean amplitude of what is whole.
-double amplitude_of(const MotifSearch& search, const Motif& motif) {
-  double sum = 0, count = 0;
-  for (const Occurrence& one : motif.occurrences)
-    if (whole(search, one)) sum += search.frames.amplitude(one.start, one.length), count += 1;
-  return sum / count;
-}
-
-/// What no motif has yet, resembles this one and is no chance.
-std::vector<Match> strays_of(const MotifSearch& search, const std::vector<FrameSpan>& active, const Motif& motif) {
-  const Pattern mean = mean_of(search, motif.occurrences, motif.window);
-  const double amplitude = amplitude_of(search, motif), places = static_cast<double>(search.series.rows());
-  const ChanceRates rate_of(backgrounds_of(search.series, active, motif.window), mean);
-  std::vector<Match> strays;
-  for (const Match& match : search.frames.matches(mean, kAgree)) {
-    if (!is_as_strong(match.amplitude, amplitude)) continue;
-    const double radius = search.options.radius;
-    const bool is_near =
-        radius > 0 ? correlation_distance(match.correlation) <= radius : rate_of(match.correlation) * places <= kStray;
-    if (is_near) strays.push_back(match);
-  }
-  return strays;
-}
-
-void gather(const MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs) {
-  struct Stray {
-    Motif* motif;
-    Match match;
-  };
-  std::vector<Stray> strays;
-  for (Motif& motif : motifs)
-    for (const Match& match : strays_of(search, active, motif)) strays.push_back({&motif, match});
-  std::stable_sort(strays.begin(), strays.end(),
-                   [](const Stray& a, const Stray& b) { return a.match.correlation > b.match.correlation; });
-  for (const Stray& one : strays) {
-    const Occurrence place{one.match.start, one.match.length, correlation_distance(one.match.correlation)};
-    if (!is_taken(motifs, place)) one.motif->occurrences.push_back(place);
-  }
-}
-
-/// What the end of a take cuts off is shortened to its stretch.
-void shorten(const MotifSearch& search, Occurrence& one) {
-  const int from = std::max(0, one.start),
-            to = std::min(one.start + one.length, static_cast<int>(search.series.rows()));
-  int start = middle(one), end = start;
-  while (start > from && search.frames.whole(start - 1, end - start + 1)) --start;
-  while (end < to && search.frames.whole(start, end - start + 1)) ++end;
-  one.start = start;
-  one.length = end - start;
 }
 
 void measure(const MotifSearch& search, Motif& motif) {
@@ -295,8 +232,8 @@ void measure(const MotifSearch& search, Motif& motif) {
   }
   for (Occurrence& one : motif.occurrences) {
     if (whole(search, one)) continue;
+    one = within_take(search, one);
     one.distance = motif.radius;
-    shorten(search, one);
   }
 }
 
@@ -311,7 +248,7 @@ void refine_motifs(MotifSearch& search, const std::vector<FrameSpan>& active, st
     }
   }
   share_out(search, motifs);
-  gather(search, active, motifs);
+  gather_performances(search, active, motifs);
   for (Motif& motif : motifs) measure(search, motif);
 }
 

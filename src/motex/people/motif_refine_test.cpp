@@ -43,20 +43,23 @@ Score performed(const std::string& actions, std::uint64_t seed) {
   return out;
 }
 
-std::vector<Motif> refined(const Score& score, int window, const std::vector<int>& starts) {
+Motif motif_at(int window, const std::vector<int>& starts) {
   Motif motif;
   motif.window = window;
   for (const int start : starts) motif.occurrences.push_back({start, window, 0.1});
-  std::vector<Motif> motifs{motif};
+  return motif;
+}
+
+std::vector<Motif> refined(const Score& score, std::vector<Motif> motifs, const std::vector<FrameSpan>& takes = {}) {
   const FindMotifsOptions options;
   const JobContext job;
   const auto num_frames = static_cast<std::size_t>(score.series.rows());
   MotifSearch search{score.series,
                      options,
-                     {},
+                     takes,
                      job,
                      ActionWindows(std::vector<unsigned char>(num_frames, 1), 24),
-                     PatternSearch(score.series, {}),
+                     PatternSearch(score.series, takes),
                      MotifCode(score.series, std::vector<double>(num_frames, 1), 24)};
   refine_motifs(search, {{0, static_cast<int>(num_frames)}}, motifs);
   return motifs;
@@ -75,14 +78,14 @@ TEST(MotifRefine, APartGrowsToTheWholeAction) {
   const Score score = performed("..a..a...a..a..", 1);
   std::vector<int> starts;
   for (const FrameSpan& place : score.places) starts.push_back(place.start + 3);
-  const std::vector<Motif> motifs = refined(score, 28, starts);
+  const std::vector<Motif> motifs = refined(score, {motif_at(28, starts)});
   ASSERT_EQ(motifs.size(), 1U);
   expect_places(motifs[0], score.places, 12);
 }
 
 TEST(MotifRefine, PairsBackToBackAreSinglePerformancesTheOddLastOneToo) {
   const Score score = performed(".aaaaaaaaa.", 2);
-  const std::vector<Motif> motifs = refined(score, 2 * kLength, {50, 150, 250, 350});
+  const std::vector<Motif> motifs = refined(score, {motif_at(2 * kLength, {50, 150, 250, 350})});
   ASSERT_EQ(motifs.size(), 1U);
   expect_places(motifs[0], score.places, 12);
 }
@@ -93,9 +96,39 @@ TEST(MotifRefine, AnotherActionIsNotGrownOver) {
   std::vector<FrameSpan> own;
   for (const int place : {2, 5, 8, 11, 15}) own.push_back({place * kLength, kLength});
   for (const FrameSpan& span : own) starts.push_back(span.start + 4);
-  const std::vector<Motif> motifs = refined(score, kLength - 8, starts);
+  const std::vector<Motif> motifs = refined(score, {motif_at(kLength - 8, starts)});
   ASSERT_EQ(motifs.size(), 1U);
   expect_places(motifs[0], own, 10);
+}
+
+TEST(MotifRefine, WhatTheEndsOfATakeCutOffIsGatheredWhenMostOfItIsSeen) {
+  const Score score = performed(".a..a..a..a..a..a.", 4);
+  const int last = score.places.back().start;
+  const auto found = [&](int missing) {
+    const FrameSpan take{kLength + missing, last - missing - missing};  // of the first and of the last performance
+    std::vector<int> starts;
+    for (std::size_t k = 1; k + 1 < score.places.size(); ++k) starts.push_back(score.places[k].start);
+    const std::vector<Motif> motifs = refined(score, {motif_at(kLength, starts)}, {take});
+    EXPECT_EQ(motifs.size(), 1U);
+    if (motifs[0].occurrences.size() > 4) {
+      EXPECT_EQ(motifs[0].occurrences.front().start, take.start);
+      EXPECT_EQ(motifs[0].occurrences.back().start + motifs[0].occurrences.back().length, take.end());
+    }
+    return motifs[0].occurrences.size();
+  };
+  EXPECT_EQ(found(10), 6U);
+  EXPECT_EQ(found(30), 4U);
+}
+
+TEST(MotifRefine, WhatIsCutOffIsNotInTheWayOfAnotherTake) {
+  const Score score = performed("a..a..a.ab..b..b..b", 5);
+  const FrameSpan first{0, 9 * kLength}, second{9 * kLength, 10 * kLength};
+  Motif a = motif_at(kLength, {0, 3 * kLength, 6 * kLength});
+  Motif b = motif_at(kLength + 20, {});  // begins 20 frames before the action does: the first one before its take
+  for (const int place : {9, 12, 15, 18}) b.occurrences.push_back({place * kLength - 20, kLength + 20, 0.1});
+  const std::vector<Motif> motifs = refined(score, {a, b}, {first, second});
+  ASSERT_EQ(motifs.size(), 2U);
+  for (const Motif& motif : motifs) EXPECT_EQ(motif.occurrences.size(), 4U);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "motex/people/template_match.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -12,8 +11,6 @@
 namespace motex {
 namespace {
 
-constexpr double kSlowest = 1.22, kFastest = 0.82;  // only to see that a match at the tempo before is the best
-constexpr std::array<double, 9> kTempos{1.0, 0.95, 1.05, 0.9, 1.1, 0.86, 1.16, kFastest, kSlowest};
 constexpr double kApart = 0.6;
 constexpr double kRival = 0.2;
 constexpr double kFlat = 1e-10;
@@ -177,15 +174,14 @@ std::vector<Match> PatternSearch::matches(const Pattern& pattern, double least) 
   const int m = static_cast<int>(pattern.rows());
   std::vector<Match> best(static_cast<std::size_t>(num_frames_));  // by the middle of the window
   std::vector<double> correlation(static_cast<std::size_t>(num_frames_));
-  for (const double tempo : kTempos) {
-    const int length = played_length(m, tempo);
+  for (std::size_t k = 0; k < kTempos.size(); ++k) {
+    const int length = played_length(m, kTempos[k]);
     if (length > num_frames_) continue;
     correlate(length == m ? pattern : stretched(pattern, length), correlation);
     for (int start = 0; start + length <= num_frames_; ++start) {
       Match& match = best[static_cast<std::size_t>(start + length / 2)];
       const double value = correlation[static_cast<std::size_t>(start)];
-      if (value > match.correlation)
-        match = {start, length, value, tempo == kSlowest || tempo == kFastest ? -1.0 : 0.0, 0};
+      if (value > match.correlation) match = {start, length, value, k < kMatchedTempos ? 0.0 : -1.0, 0};
     }
   }
   std::vector<int> peaks;

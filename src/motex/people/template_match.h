@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "motex/core/matrix.h"
@@ -17,6 +19,11 @@ struct Match {
   double amplitude = 0;    ///< of the window: its deviation, √ of the sum of the signals' variances
   double rival = 0;        ///< highest correlation of a match 0.2 … 0.6 lengths away
 };
+
+/// Tempos at which a pattern is compared. Beyond the first kMatchedTempos nothing is matched: they only show that it is
+/// no closer at another tempo.
+inline constexpr std::array<double, 9> kTempos{1.0, 0.95, 1.05, 0.9, 1.1, 0.86, 1.16, 0.82, 1.22};
+inline constexpr std::size_t kMatchedTempos = 7;
 
 /// Pattern of an action: rows = frames, columns = signals, each column of mean 0, all together of norm 1 (0: constant).
 using Pattern = FrameMatrix;
