@@ -18,6 +18,7 @@
 #include "motex/core/quantile.h"
 #include "motex/image/png.h"
 #include "motex/people/cut_quality.h"
+#include "motex/people/dissolve.h"
 #include "motex/people/feature_lines.h"
 #include "motex/people/field_morph.h"
 #include "motex/people/film_frames.h"
@@ -178,7 +179,9 @@ void measure_cost(const bench::PeopleClip& clip) {
   const std::vector<FeatureLinePair> lines = outline_lines({a, {}}, {b, {}});
   const auto cost = [&](const Sprite& from, const Sprite& to) {
     const double start = seconds();
-    for (int i = 0; i < 40; ++i) field_morph({from, {}}, {to, {}}, lines, 0.5, 0.5, {}, 1);
+    for (int i = 0; i < 40; ++i)
+      dissolve_where_alike(field_morph({from, {}}, {to, {}}, lines, 0.5, 0, {}, 1),
+                           field_morph({from, {}}, {to, {}}, lines, 0.5, 1, {}, 1), 0.5);
     return 1000 * (seconds() - start) / 40;
   };
   std::printf(

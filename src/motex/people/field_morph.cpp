@@ -135,8 +135,10 @@ Sprite field_morph(const PlacedSprite& a, const PlacedSprite& b, const std::vect
   }
   const BoundingBox box = joined(box_of(a.sprite, a.placement), box_of(b.sprite, b.placement));
   if (box.empty()) return {};
-  const WarpGrid to_a = field_warp(shown, in_a, box, options), to_b = field_warp(shown, in_b, box, options);
-  return dissolved({a, to_a}, {b, to_b}, dissolve, box, jobs);
+  const auto warp_to = [&](const std::vector<FeatureLine>& source) { return field_warp(shown, source, box, options); };
+  if (dissolve == 0) return warped({a, warp_to(in_a)}, box, jobs);
+  if (dissolve == 1) return warped({b, warp_to(in_b)}, box, jobs);
+  return dissolved({a, warp_to(in_a)}, {b, warp_to(in_b)}, dissolve, box, jobs);
 }
 
 Sprite cross_dissolve(const PlacedSprite& a, const PlacedSprite& b, double weight, int jobs) {

@@ -138,8 +138,11 @@ SpriteFlow sprite_flow(const PlacedSprite& a, const PlacedSprite& b, const std::
 Sprite flow_morph(const PlacedSprite& a, const PlacedSprite& b, const SpriteFlow& flow, double weight, double dissolve,
                   int jobs) {
   if (flow.box.empty()) return {};
-  const WarpGrid to_a = warp_along(flow.a_to_b, weight), to_b = warp_along(flow.b_to_a, 1 - weight);
-  return dissolved({a, to_a}, {b, to_b}, dissolve, flow.box, jobs);
+  const auto to_a = [&] { return warp_along(flow.a_to_b, weight); };
+  const auto to_b = [&] { return warp_along(flow.b_to_a, 1 - weight); };
+  if (dissolve == 0) return warped({a, to_a()}, flow.box, jobs);
+  if (dissolve == 1) return warped({b, to_b()}, flow.box, jobs);
+  return dissolved({a, to_a()}, {b, to_b()}, dissolve, flow.box, jobs);
 }
 
 }  // namespace motex

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "motex/people/align_sprites.h"
+#include "motex/people/dissolve.h"
 #include "motex/people/field_morph.h"
 #include "motex/people/measure_silhouette.h"
 
@@ -65,7 +66,6 @@ Transition::Way Transition::way_of(const Frame& frame, TransitionRenderer render
   return way;
 }
 
-/// weight: how far the shapes are on their way; dissolve: how far the colours are.
 Sprite Transition::render_on(const Way& way, const Frame& frame, double weight, double dissolve) const {
   if (way.flow) return flow_morph(left(frame), entered(frame), *way.flow, weight, dissolve, jobs_);
   return field_morph(left(frame), entered(frame), way.lines, weight, dissolve, {}, jobs_);
@@ -76,7 +76,10 @@ Sprite Transition::render(std::size_t k, TransitionRenderer renderer) const {
   if (renderer == TransitionRenderer::kHardCut)
     return k < (frames_.size() + 1) / 2 ? placed(*frame.sprite_a, frame.a.placement)
                                         : placed(*frame.sprite_b, frame.b.placement);
-  return render_on(way_of(frame, renderer), frame, eased(frame.weight), frame.weight);
+  const Way way = way_of(frame, renderer);
+  const double shapes = eased(frame.weight);
+  if (renderer == TransitionRenderer::kCrossDissolve) return render_on(way, frame, shapes, frame.weight);
+  return dissolve_where_alike(render_on(way, frame, shapes, 0), render_on(way, frame, shapes, 1), frame.weight);
 }
 
 std::vector<Sprite> Transition::render_all(TransitionRenderer renderer) const {

@@ -42,6 +42,7 @@ class Transition {
   PlacedSprite entered(const Frame& frame) const;
   std::vector<FeatureLinePair> lines_of(const Frame& frame) const;
   Way way_of(const Frame& frame, TransitionRenderer renderer) const;
+  /// weight: how far the shapes are on their way; dissolve: how far the colours are.
   Sprite render_on(const Way& way, const Frame& frame, double weight, double dissolve) const;
   Sprite render(std::size_t k, TransitionRenderer renderer) const;
   std::vector<Sprite> render_all(TransitionRenderer renderer) const;

@@ -154,6 +154,33 @@ Side side_of(const WarpedSprite& warped) {
           warped.warp};
 }
 
+inline void copy_chunk(const Chunk& chunk, int count, std::uint32_t* out) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    std::uint32_t pixel = 0;
+    for (int shift = 0; shift < 32; shift += 8)
+      pixel |= static_cast<std::uint32_t>(static_cast<std::int32_t>(interpolated(chunk, i, shift) + 0.5F)) << shift;
+    out[i] = pixel;
+  }
+}
+
+/// Whether any of the pixels looked up is not transparent.
+inline bool look_up_row(const Side& side, const GridRow& row, int first, int count, int left, float film_y,
+                        Chunk& chunk) {
+  find_places(row, side.warp.spacing, first, count, left, film_y, side.to, chunk);
+  find_squares(side.sprite, count, chunk);
+  return look_up(side.sprite, count, chunk);
+}
+
+MOTEX_WIDE void warp_row(const Side& side, const BoundingBox& box, int y, std::uint32_t* out) {
+  const GridRow row(side.warp, y);
+  Chunk chunk;
+  for (int first = 0; first < box.width(); first += kChunk) {
+    const int count = std::min(kChunk, box.width() - first);
+    if (look_up_row(side, row, first, count, box.left, static_cast<float>(box.top + y), chunk))
+      copy_chunk(chunk, count, out + first);
+  }
+}
+
 MOTEX_WIDE void dissolve_row(const Side& a, const Side& b, float weight, const BoundingBox& box, int y,
                              std::uint32_t* out) {
   const GridRow row_a(a.warp, y), row_b(b.warp, y);
@@ -161,11 +188,8 @@ MOTEX_WIDE void dissolve_row(const Side& a, const Side& b, float weight, const B
   Chunk chunk_a, chunk_b;
   for (int first = 0; first < box.width(); first += kChunk) {
     const int count = std::min(kChunk, box.width() - first);
-    find_places(row_a, a.warp.spacing, first, count, box.left, film_y, a.to, chunk_a);
-    find_places(row_b, b.warp.spacing, first, count, box.left, film_y, b.to, chunk_b);
-    find_squares(a.sprite, count, chunk_a);
-    find_squares(b.sprite, count, chunk_b);
-    const bool any_a = look_up(a.sprite, count, chunk_a), any_b = look_up(b.sprite, count, chunk_b);
+    const bool any_a = look_up_row(a, row_a, first, count, box.left, film_y, chunk_a);
+    const bool any_b = look_up_row(b, row_b, first, count, box.left, film_y, chunk_b);
     if (any_a || any_b) mix_chunks(chunk_a, chunk_b, weight, count, out + first);
   }
 }
@@ -199,24 +223,43 @@ BoundingBox joined(const BoundingBox& a, const BoundingBox& b) {
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
 }
 
-Sprite dissolved(const WarpedSprite& a, const WarpedSprite& b, double weight, const BoundingBox& box, int jobs) {
-  if (box.empty()) return {};
-  if (!covers(a.warp, box) || !covers(b.warp, box) || a.warp.spacing != b.warp.spacing)
-    throw InvalidInput("the grids of a dissolve must cover the rectangle that is drawn");
+namespace {
+
+/// A picture of the box, rows drawn by draw(y, pixels of the row: transparent).
+template <class Draw>
+Sprite drawn(const BoundingBox& box, int jobs, const Draw& draw) {
   Sprite out;
+  if (box.empty()) return out;
   out.left = box.left, out.top = box.top, out.width = box.width(), out.height = box.height();
   out.pixels.assign(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), {});
-  const Side side_a = side_of(a), side_b = side_of(b);
   const int num_tasks = (out.height + kRowsPerTask - 1) / kRowsPerTask;
   parallel_for(jobs, num_tasks, [&](int task) {
     std::vector<std::uint32_t> row(static_cast<std::size_t>(out.width));
     for (int y = task * kRowsPerTask; y < std::min(out.height, (task + 1) * kRowsPerTask); ++y) {
       std::fill(row.begin(), row.end(), 0);
-      dissolve_row(side_a, side_b, static_cast<float>(weight), box, y, row.data());
+      draw(y, row.data());
       std::memcpy(&out.at(0, y), row.data(), row.size() * sizeof(std::uint32_t));
     }
   });
   return out;
+}
+
+}  // namespace
+
+Sprite warped(const WarpedSprite& sprite, const BoundingBox& box, int jobs) {
+  if (!box.empty() && !covers(sprite.warp, box))
+    throw InvalidInput("the grid of a warp must cover the rectangle that is drawn");
+  const Side side = side_of(sprite);
+  return drawn(box, jobs, [&](int y, std::uint32_t* row) { warp_row(side, box, y, row); });
+}
+
+Sprite dissolved(const WarpedSprite& a, const WarpedSprite& b, double weight, const BoundingBox& box, int jobs) {
+  if (!box.empty() && (!covers(a.warp, box) || !covers(b.warp, box) || a.warp.spacing != b.warp.spacing))
+    throw InvalidInput("the grids of a dissolve must cover the rectangle that is drawn");
+  const Side side_a = side_of(a), side_b = side_of(b);
+  return drawn(box, jobs, [&](int y, std::uint32_t* row) {
+    dissolve_row(side_a, side_b, static_cast<float>(weight), box, y, row);
+  });
 }
 
 }  // namespace motex

@@ -45,6 +45,9 @@ struct WarpedSprite {
   const WarpGrid& warp;
 };
 
+/// The warped sprite over the pixels of `box`, bilinear. The grid must start at the box's corner and cover it. Throws
+/// InvalidInput.
+Sprite warped(const WarpedSprite& sprite, const BoundingBox& box, int jobs = 0);
 /// (1 − weight) · a + weight · b of two warped sprites, premultiplied colours and alpha alike, bilinear, over the
 /// pixels of `box`. Both grids must start at the box's corner, with one spacing, and cover it. Cost about 8 ns a pixel.
 /// Throws InvalidInput.
