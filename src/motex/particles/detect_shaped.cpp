@@ -24,7 +24,10 @@ constexpr double kNeeded = 0.4;     // of the energy of an element, by which it 
 constexpr double kApart = 0.6;      // scales between two elements, at least
 constexpr std::pair<double, double> kOff[] = {
     {-1, 0}, {0, 0}, {1, 0}, {0, -1.3}, {0, 1.3}};  // deviations of sizes, turns
-constexpr double kPopulation = 1.5;                 // deviations of sizes and amplitudes, widened: learned from few
+constexpr double kLeastSpread = 0.06;  // core scales: the pictures of states do not agree better on where the core is
+constexpr double kLeastLevelSpread = 0.08;  // of ln scale and ln amplitude: nor on how large and dark it is
+constexpr double kCrowdSpread = 0.3;        // core scales, of an element right above another one
+constexpr double kPopulation = 1.5;         // deviations of sizes and amplitudes, widened: learned from few
 
 class ShapedDetector {
  public:
@@ -70,9 +73,10 @@ class ShapedDetector {
       blob.log_scale += e.log_scale;
       blob.amplitude *= e.amplitude;
       blob.turn = e.turn;
-      blob.place_spread = e.place_spread;
-      blob.log_scale_spread = e.log_scale_spread;
-      blob.amplitude_spread = e.amplitude_spread * std::abs(shapes_.core.amplitude);
+      blob.place_spread = std::hypot(e.place_spread, blob.scale() * (kLeastSpread + kCrowdSpread * crowding(e)));
+      blob.log_scale_spread = std::hypot(e.log_scale_spread, kLeastLevelSpread);
+      blob.amplitude_spread =
+          std::hypot(e.amplitude_spread * std::abs(shapes_.core.amplitude), kLeastLevelSpread * blob.amplitude);
     }
     return out;
   }
@@ -80,6 +84,16 @@ class ShapedDetector {
   const Plane& left() const { return fitter_.left(); }
 
  private:
+  /// 1 = right above another element, 0 = none is near.
+  double crowding(const ShapedElement& one) const {
+    double most = 0;
+    for (const ShapedElement& other : fitter_.elements()) {
+      const double reach = kNear * (std::exp(one.log_scale) + std::exp(other.log_scale));
+      if (&other != &one) most = std::max(most, 1 - std::hypot(other.x - one.x, other.y - one.y) / reach);
+    }
+    return most;
+  }
+
   /// Σ (…)² / noise² of the element alone, as it is expected, roughly: of its core.
   double core_energy(double log_scale, double amplitude) const {
     const double scale = std::exp(log_scale + shapes_.core.log_scale), peak = amplitude * shapes_.core.amplitude;

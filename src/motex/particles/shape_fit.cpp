@@ -31,6 +31,17 @@ double prior_cost(const ShapedElement& element, const ShapedPrior& prior) {
   return sum;
 }
 
+ShapedElement moved(const ShapedElement& element, const Vector5& change) {
+  const double scale = std::exp(element.log_scale);
+  ShapedElement out = element;
+  out.x += std::clamp(change[0], -0.7 * scale, 0.7 * scale);
+  out.y += std::clamp(change[1], -0.7 * scale, 0.7 * scale);
+  out.log_scale += std::clamp(change[2], -0.3, 0.3);
+  out.amplitude += change[3];
+  out.turn += std::clamp(change[4], -0.3, 0.3);
+  return out;
+}
+
 /// Where low ≤ start + slope · d ≤ high, of first ≤ d ≤ last.
 void cut(double start, double slope, double low, double high, double& first, double& last) {
   if (std::abs(slope) < 1e-9) {
@@ -59,13 +70,13 @@ ShapeFitter::Box ShapeFitter::box_of(const ShapedElement& element) const {
 }
 
 template <typename Visit>
-void ShapeFitter::for_each_pixel(const ShapedElement& element, const Visit& visit) const {
+void ShapeFitter::for_each_pixel(const ShapedElement& element, const Visit& visit, int row_step) const {
   const Box box = box_of(element);
   const double scale = std::exp(element.log_scale), inverse = 1 / scale;
   const double along = std::cos(element.turn) * inverse, across = std::sin(element.turn) * inverse;
   const ShapeGrid& shape = shapes_->shapes[static_cast<std::size_t>(element.shape)];
   const ShapeGrid::Extent& extent = shape.extent();
-  for (int y = box.top; y < box.bottom; ++y) {
+  for (int y = box.top; y < box.bottom; y += row_step) {
     // u and v go linearly along the row: where both are inside the extent.
     const double dy = y - element.y, u_start = across * dy, v_start = along * dy;
     double first = box.left - element.x, last = box.right - 1 - element.x;
@@ -84,67 +95,75 @@ void ShapeFitter::paint(const ShapedElement& element, float sign) {
                  [&](int x, int y, double, double, const ShapeGrid::Point& p) { left_.row(y)[x] -= weight * p.value; });
 }
 
-/// Change of the cost when the element is added to what there is.
-double ShapeFitter::cost(const ShapedElement& element, const ShapedPrior& prior) const {
+/// Change of the cost when the element is added to what there is, by every other row.
+double ShapeFitter::rough_cost(const ShapedElement& element, const ShapedPrior& prior) const {
+  constexpr int kRowStep = 2;
   double sum = 0;
-  for_each_pixel(element, [&](int x, int y, double, double, const ShapeGrid::Point& p) {
-    const double value = element.amplitude * static_cast<double>(p.value);
-    sum += value * (value - 2 * static_cast<double>(left_.at(x, y)));
+  for_each_pixel(
+      element,
+      [&](int x, int y, double, double, const ShapeGrid::Point& p) {
+        const double value = element.amplitude * static_cast<double>(p.value);
+        sum += value * (value - 2 * static_cast<double>(left_.at(x, y)));
+      },
+      kRowStep);
+  return kRowStep * sum / (noise_ * noise_) + prior_cost(element, prior);
+}
+
+/// What Gauss–Newton needs at one place of the five numbers.
+struct ShapeFitter::Slopes {
+  double cost = 0;
+  std::array<double, 15> products{};  ///< of the derivatives, lower triangle
+  std::array<double, 5> slopes{};     ///< derivatives times what is left
+};
+
+ShapeFitter::Slopes ShapeFitter::slopes_at(const ShapedElement& element, const ShapedPrior& prior) const {
+  Slopes out;
+  const double inverse = std::exp(-element.log_scale), a = element.amplitude;
+  const double c = std::cos(element.turn) * inverse, s = std::sin(element.turn) * inverse;
+  double sum = 0;
+  for_each_pixel(element, [&](int x, int y, double u, double v, const ShapeGrid::Point& p) {
+    const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
+    const auto value = static_cast<double>(p.value);
+    if (value == 0 && along_u == 0 && along_v == 0) return;
+    const std::array<double, 5> d{-a * (c * along_u - s * along_v), -a * (s * along_u + c * along_v),
+                                  -a * (u * along_u + v * along_v), value, a * (v * along_u - u * along_v)};
+    const double light = static_cast<double>(left_.at(x, y)), painted = a * value, rest = light - painted;
+    sum += painted * (painted - 2 * light);
+    for (std::size_t i = 0, k = 0; i < 5; ++i) {
+      out.slopes[i] += d[i] * rest;
+      for (std::size_t j = 0; j <= i; ++j, ++k) out.products[k] += d[i] * d[j];
+    }
   });
-  return sum / (noise_ * noise_) + prior_cost(element, prior);
+  out.cost = sum / (noise_ * noise_) + prior_cost(element, prior);
+  return out;
 }
 
 double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int num_steps) const {
-  double now = cost(element, prior), damping = 1e-3;
+  Slopes now = slopes_at(element, prior);
+  double damping = 1e-3;
   Matrix5 curvature = Matrix5::Identity();
   for (int step = 0; step < num_steps; ++step) {
-    const double inverse = std::exp(-element.log_scale), a = element.amplitude;
-    const double c = std::cos(element.turn) * inverse, s = std::sin(element.turn) * inverse;
-    std::array<double, 15> products{};  // lower triangle
-    std::array<double, 5> slopes{};
-    for_each_pixel(element, [&](int x, int y, double u, double v, const ShapeGrid::Point& p) {
-      const auto along_u = static_cast<double>(p.along_u), along_v = static_cast<double>(p.along_v);
-      const auto value = static_cast<double>(p.value);
-      if (value == 0 && along_u == 0 && along_v == 0) return;
-      const std::array<double, 5> d{-a * (c * along_u - s * along_v), -a * (s * along_u + c * along_v),
-                                    -a * (u * along_u + v * along_v), value, a * (v * along_u - u * along_v)};
-      const double rest = static_cast<double>(left_.at(x, y)) - a * value;
-      for (std::size_t i = 0, k = 0; i < 5; ++i) {
-        slopes[i] += d[i] * rest;
-        for (std::size_t j = 0; j <= i; ++j, ++k) products[k] += d[i] * d[j];
-      }
-    });
     const double weight = 1 / (noise_ * noise_);
+    const std::array<double, 5> values = values_of(element);
     Vector5 slope;
     for (int i = 0, k = 0; i < 5; ++i) {
-      slope[i] = weight * slopes[static_cast<std::size_t>(i)];
+      const auto at = static_cast<std::size_t>(i);
+      slope[i] = weight * now.slopes[at] - prior.precision[at] * (values[at] - prior.mean[at]);
       for (int j = 0; j <= i; ++j, ++k)
-        curvature(i, j) = curvature(j, i) = weight * products[static_cast<std::size_t>(k)];
-    }
-    const std::array<double, 5> values = values_of(element);
-    for (int i = 0; i < 5; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      curvature(i, i) += prior.precision[k] + 1e-9;
-      slope[i] -= prior.precision[k] * (values[k] - prior.mean[k]);
+        curvature(i, j) = curvature(j, i) = weight * now.products[static_cast<std::size_t>(k)];
+      curvature(i, i) += prior.precision[at] + 1e-9;
     }
     bool is_better = false;
     double saved = 0;
     while (!is_better && damping < 1e4) {
       Matrix5 damped = curvature;
       damped.diagonal() *= 1 + damping;
-      const Vector5 change = damped.ldlt().solve(slope);
-      const double scale = std::exp(element.log_scale);
-      ShapedElement next = element;
-      next.x += std::clamp(change[0], -0.7 * scale, 0.7 * scale);
-      next.y += std::clamp(change[1], -0.7 * scale, 0.7 * scale);
-      next.log_scale += std::clamp(change[2], -0.3, 0.3);
-      next.amplitude += change[3];
-      next.turn += std::clamp(change[4], -0.3, 0.3);
-      const double then = cost(next, prior);
-      is_better = then < now;
+      const ShapedElement next = moved(element, damped.ldlt().solve(slope));
+      const Slopes then = slopes_at(next, prior);
+      is_better = then.cost < now.cost;
       damping *= is_better ? 0.2 : 10;
       if (!is_better) continue;
-      saved = now - then;
+      saved = now.cost - then.cost;
       now = then;
       element = next;
     }
@@ -154,7 +173,7 @@ double ShapeFitter::solve(ShapedElement& element, const ShapedPrior& prior, int 
   element.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(0, 0) + covariance(1, 1))));
   element.log_scale_spread = std::sqrt(std::max(0.0, covariance(2, 2)));
   element.amplitude_spread = std::sqrt(std::max(0.0, covariance(3, 3)));
-  return now;
+  return now.cost;
 }
 
 double ShapeFitter::try_one(ShapedElement& element, const ShapedPrior& prior) const {
@@ -162,7 +181,7 @@ double ShapeFitter::try_one(ShapedElement& element, const ShapedPrior& prior) co
   for (std::size_t k = 0; k < shapes_->shapes.size(); ++k) {
     ShapedElement one = element;
     one.shape = static_cast<int>(k);
-    order.emplace_back(cost(one, prior), one.shape);
+    order.emplace_back(rough_cost(one, prior), one.shape);
   }
   std::sort(order.begin(), order.end());
   order.resize(std::min(order.size(), kMostTried));

@@ -45,15 +45,17 @@ class ShapeFitter {
     int left, top, right, bottom;
   };
   Box box_of(const ShapedElement& element) const;
-  /// visit(x, y, u, v, what the shape is there) at every pixel that the element may touch.
+  /// visit(x, y, u, v, what the shape is there) at every pixel that the element may touch, in every row_step-th row.
   template <typename Visit>
-  void for_each_pixel(const ShapedElement& element, const Visit& visit) const;
+  void for_each_pixel(const ShapedElement& element, const Visit& visit, int row_step = 1) const;
   void paint(const ShapedElement& element, float sign);
   struct UnderOne {
     double light = 0, left = 0, num = 0;
   };
   UnderOne look_under(const ShapedElement& element) const;
-  double cost(const ShapedElement& element, const ShapedPrior& prior) const;
+  struct Slopes;
+  Slopes slopes_at(const ShapedElement& element, const ShapedPrior& prior) const;
+  double rough_cost(const ShapedElement& element, const ShapedPrior& prior) const;
   double solve(ShapedElement& element, const ShapedPrior& prior, int num_steps) const;
   void unsettle_near(const ShapedElement& element);
 
