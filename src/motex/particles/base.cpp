@@ -10,12 +10,9 @@
 namespace motex {
 namespace {
 
-constexpr double kReach = 3.2;          // envelope e^{−3.2²/2} = 0.006
-constexpr double kLogReach = 3.9;       // its ring has more weight
-constexpr double kDeepest = 200;        // e^{−200} can still be multiplied up again
-constexpr double kGaborElongation = 2;  // along the bar
-
-bool is_gabor(BaseKind kind) { return kind == BaseKind::kGaborCos || kind == BaseKind::kGaborSin; }
+constexpr double kReach = 3.2;     // envelope e^{−3.2²/2} = 0.006
+constexpr double kLogReach = 3.9;  // its ring has more weight
+constexpr double kDeepest = 200;   // e^{−200} can still be multiplied up again
 
 /// ψ over a box whose top left pixel is (left, top).
 void fill_round(const Base& base, int left, int top, int width, int height, float* out) {
@@ -33,10 +30,13 @@ void fill_round(const Base& base, int left, int top, int width, int height, floa
   }
 }
 
-/// Along a row the exponent is a square polynomial and the phase linear, so both go on by multiplication.
-void fill_gabor(const Base& base, int left, int top, int width, int height, float* out) {
+/// Along a row the exponent is a square polynomial and the phase linear, so both go on by multiplication. A streak is a
+/// Gcos of frequency and mean zero.
+void fill_oriented(const Base& base, int left, int top, int width, int height, float* out) {
   const double c = std::cos(base.angle), s = std::sin(base.angle), inverse = 1 / (2 * base.scale * base.scale);
-  const double frequency = kGaborFrequency / base.scale, mean = std::exp(-kGaborFrequency * kGaborFrequency / 2);
+  const bool is_streak = base.kind == BaseKind::kStreak;
+  const double frequency = is_streak ? 0 : kGaborFrequency / base.scale;
+  const double mean = is_streak ? 0 : std::exp(-kGaborFrequency * kGaborFrequency / 2);
   const double flatness = 1 / (kGaborElongation * kGaborElongation);
   const double square = (c * c + s * s * flatness) * inverse, ratio_step = std::exp(-2 * square);
   const double turn_cos = std::cos(frequency * c), turn_sin = std::sin(frequency * c);
@@ -65,8 +65,12 @@ void fill_gabor(const Base& base, int left, int top, int width, int height, floa
 
 }  // namespace
 
+bool is_oriented(BaseKind kind) {
+  return kind == BaseKind::kGaborCos || kind == BaseKind::kGaborSin || kind == BaseKind::kStreak;
+}
+
 BaseReach reach_of(const Base& base) {
-  if (!is_gabor(base.kind)) {
+  if (!is_oriented(base.kind)) {
     const int reach = static_cast<int>(std::ceil((base.kind == BaseKind::kLog ? kLogReach : kReach) * base.scale));
     return {reach, reach};
   }
@@ -77,7 +81,7 @@ BaseReach reach_of(const Base& base) {
 }
 
 void evaluate(const Base& base, int left, int top, int width, int height, float* out) {
-  (is_gabor(base.kind) ? fill_gabor : fill_round)(base, left, top, width, height, out);
+  (is_oriented(base.kind) ? fill_oriented : fill_round)(base, left, top, width, height, out);
 }
 
 BasePatch render_patch(const Base& base, int width, int height) {
@@ -156,7 +160,7 @@ Planes reconstruct(const BaseMap& map, Planes background, int num_bases) {
 }
 
 const char* name_of(BaseKind kind) {
-  constexpr const char* kNames[] = {"log", "gcos", "gsin", "gaussian"};
+  constexpr const char* kNames[] = {"log", "gcos", "gsin", "gaussian", "streak"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 

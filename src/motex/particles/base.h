@@ -3,22 +3,29 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "motex/image/planes.h"
 
 namespace motex {
 
-/// Base functions ψ_ℓ of [TM02] section 2 (blob, bar, edge), and a plain Gaussian beyond the paper. With
+/// Base functions ψ_ℓ of [TM02] section 2 (blob, bar, edge), and beyond the paper a plain Gaussian and a long one. With
 /// u = x cos θ + y sin θ, v = −x sin θ + y cos θ relative to the centre, and s = scale:
 ///   LoG   (2 − r²/s²) e^{−r²/2s²}
 ///   Gcos  (cos(ωu/s) − e^{−ω²/2}) e^{−(u² + v²/4)/2s²},  ω = 1.2
 ///   Gsin  sin(ωu/s) e^{−(u² + v²/4)/2s²}
 ///   Gaussian  e^{−r²/2s²}
+///   streak    e^{−(u² + v²/4)/2s²}, for cores of elongated elements: a Gcos has lobes beside it of −45 %
 /// each divided by its norm over the pixels.
-enum class BaseKind { kLog, kGaborCos, kGaborSin, kGaussian };
+/// Files know the kinds by their numbers.
+enum class BaseKind { kLog, kGaborCos, kGaborSin, kGaussian, kStreak };
+constexpr std::size_t kNumBaseKinds = 5;
+
+bool is_oriented(BaseKind kind);  ///< Gcos, Gsin, streak
 
 constexpr double kGaborFrequency = 1.2;  ///< ω
+constexpr double kGaborElongation = 2;   ///< of the envelope of oriented kinds, along v
 constexpr double kMinScale = 0.75;       ///< pixels
 constexpr double kMaxScale = 8;
 constexpr int kNumScales = 8;
@@ -78,6 +85,6 @@ void add_patch(Plane& image, const BasePatch& patch, float weight);
 /// Σ α_j b_j of the first num_bases bases (−1 = all) onto `background`, of which there must be num_planes planes.
 Planes reconstruct(const BaseMap& map, Planes background, int num_bases = -1);
 
-const char* name_of(BaseKind kind);  ///< "log", "gcos", "gsin", "gaussian"
+const char* name_of(BaseKind kind);  ///< "log", "gcos", "gsin", "gaussian", "streak"
 
 }  // namespace motex

@@ -12,7 +12,8 @@
 namespace motex {
 namespace {
 
-constexpr BaseKind kKinds[] = {BaseKind::kLog, BaseKind::kGaborCos, BaseKind::kGaborSin, BaseKind::kGaussian};
+constexpr BaseKind kKinds[] = {BaseKind::kLog, BaseKind::kGaborCos, BaseKind::kGaborSin, BaseKind::kGaussian,
+                               BaseKind::kStreak};
 
 /// ψ as its definition says, pixel by pixel.
 double definition(const Base& base, double x, double y) {
@@ -30,6 +31,8 @@ double definition(const Base& base, double x, double y) {
       return std::sin(1.2 * u / s) * long_one;
     case BaseKind::kGaussian:
       return round;
+    case BaseKind::kStreak:
+      return long_one;
   }
   return 0;
 }
@@ -69,12 +72,12 @@ TEST(Base, PatchesHaveUnitNormAndHoldNearlyAllOfIt) {
 }
 
 TEST(Base, HalfATurnChangesTheSignOfTheEdgeOnly) {
-  for (const BaseKind kind : {BaseKind::kGaborCos, BaseKind::kGaborSin}) {
+  for (const BaseKind kind : {BaseKind::kGaborCos, BaseKind::kGaborSin, BaseKind::kStreak}) {
     const BasePatch a = render_patch({kind, 40, 40, 2, 0.3, {}}, 80, 80);
     const BasePatch b = render_patch({kind, 40, 40, 2, 0.3 + std::numbers::pi, {}}, 80, 80);
     Plane image(80, 80);
     add_patch(image, a, 1);
-    EXPECT_NEAR(inner_product(b, image), kind == BaseKind::kGaborCos ? 1 : -1, 1e-4);
+    EXPECT_NEAR(inner_product(b, image), kind == BaseKind::kGaborSin ? -1 : 1, 1e-4);
   }
 }
 

@@ -52,6 +52,8 @@ double coefficient_factor(BaseKind kind) {
       const double across = 0.5 * (1 + std::exp(-w * w)) - 2 * mean * std::exp(-w * w / 4) + mean * mean;
       return std::sqrt(2 * kPi * across) / (1 - mean);
     }
+    case BaseKind::kStreak:
+      return std::sqrt(kGaborElongation * kPi);
     case BaseKind::kGaborSin:
       return std::sqrt(kPi * (1 - std::exp(-w * w))) / 0.59501;
   }

@@ -17,7 +17,7 @@ namespace motex {
 namespace {
 
 constexpr std::string_view kMagic = "\x89MTXC\r\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kNewestVersion = 2;  // with streaks; clips without them are version 1
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 24;
 constexpr std::int64_t kMostFrames = 10'000'000;
 constexpr std::size_t kChecksumSize = 4;
@@ -34,15 +34,18 @@ struct Numbers {
 
 struct ClipModels {
   NumberModel num_births, block_gap, num_coils;
+  BitModel streak;  // version 2
   std::array<BitModel, 3> kind;
-  Numbers<4> scale, luma, precision, blue, red;  // by kind
-  Numbers<2> angle;
+  Numbers<kNumBaseKinds> scale, luma, blue, red;  // by kind
+  Numbers<4> precision;
+  Numbers<3> angle;  // by oriented kind
   NumberModel place_outside;
   BitModel inside;
   std::array<std::array<BitModel, 8>, 2> place_digit;  // the upper half of a block or the lower, and on
   std::array<BitModel, 8> goes_on;                     // by age
   Numbers<12> step_x, step_y;                          // by precision and by how far the last one was off
-  Numbers<4> scale_step, luma_step, blue_step, red_step, angle_step, coil_x, coil_y;
+  Numbers<4> scale_step, luma_step, blue_step, red_step, angle_step;
+  Numbers<kNumBaseKinds> coil_x, coil_y;
   Numbers<1> coil_scale, coil_luma;
 };
 
@@ -71,8 +74,8 @@ template <typename Coder>
 class ClipCoder {
  public:
   /// most_states: a reader gives up beyond it.
-  ClipCoder(Coder& coder, QuantisedClip& clip, bool reads, std::int64_t most_states)
-      : coder_(coder), clip_(clip), reads_(reads), states_left_(most_states) {}
+  ClipCoder(Coder& coder, QuantisedClip& clip, std::uint32_t version, bool reads, std::int64_t most_states)
+      : coder_(coder), clip_(clip), version_(version), reads_(reads), states_left_(most_states) {}
 
   void code() {
     persistence_ = static_cast<std::int32_t>(coder_.raw(static_cast<std::uint32_t>(persistence_), 5));
@@ -166,8 +169,6 @@ class ClipCoder {
     if (is_oriented(base_kind)) change(models_.angle_step[kind], before.angle, now.angle, 1 << 20);
   }
 
-  static bool is_oriented(BaseKind kind) { return kind == BaseKind::kGaborCos || kind == BaseKind::kGaborSin; }
-
   std::size_t code_births(std::int64_t frame, std::size_t next) {
     std::int32_t num_births = 0;
     if (!reads_)
@@ -196,6 +197,10 @@ class ClipCoder {
 
   void code_kind(BaseKind& kind) {
     const std::size_t value = kind_idx(kind);
+    if (version_ >= 2 && coder_.bit(models_.streak, kind == BaseKind::kStreak)) {
+      kind = BaseKind::kStreak;
+      return;
+    }
     const bool high = coder_.bit(models_.kind[0], value >= 2);
     const bool low = coder_.bit(models_.kind[high ? 2 : 1], value % 2 == 1);
     kind = static_cast<BaseKind>((high ? 2 : 0) + (low ? 1 : 0));
@@ -226,7 +231,9 @@ class ClipCoder {
       state.red = in_range(code_number(coder_, models_.red[kind], state.red), 1 << 26);
     }
     if (is_oriented(path.kind))
-      state.angle = in_range(code_number(coder_, models_.angle[kind - 1], state.angle - kAngleLevels / 2), 1 << 20) +
+      state.angle = in_range(code_number(coder_, models_.angle[path.kind == BaseKind::kStreak ? 2 : kind - 1],
+                                         state.angle - kAngleLevels / 2),
+                             1 << 20) +
                     kAngleLevels / 2;
   }
 
@@ -273,6 +280,7 @@ class ClipCoder {
 
   Coder& coder_;
   QuantisedClip& clip_;
+  std::uint32_t version_;
   bool reads_;
   std::int64_t states_left_;
   ClipModels models_;
@@ -313,6 +321,14 @@ void put(std::string& bytes, T value) {
 
 bool is_step(float step) { return step >= 1e-3F && step <= 1e6F; }
 
+std::uint32_t version_of(const QuantisedClip& clip) {
+  const auto is_streak = [](const QuantisedPath& path) { return path.kind == BaseKind::kStreak; };
+  const bool any = std::any_of(clip.cables.begin(), clip.cables.end(), [&](const QuantisedCable& cable) {
+    return is_streak(cable.core) || std::any_of(cable.coils.begin(), cable.coils.end(), is_streak);
+  });
+  return any ? 2 : 1;
+}
+
 /// φ by least squares over all steps, in sixteenths.
 std::int32_t persistence_of(const QuantisedClip& clip) {
   double xx = 0, xy = 0, x = 0, y = 0, n = 0;
@@ -338,7 +354,8 @@ std::int32_t persistence_of(const QuantisedClip& clip) {
 
 std::string write_clip_bytes(const QuantisedClip& clip, const Planes& background) {
   std::string bytes(kMagic);
-  put(bytes, kVersion);
+  const std::uint32_t version = version_of(clip);
+  put(bytes, version);
   put(bytes, static_cast<std::uint32_t>(clip.width));
   put(bytes, static_cast<std::uint32_t>(clip.height));
   put(bytes, static_cast<std::uint8_t>(clip.num_planes));
@@ -350,7 +367,7 @@ std::string write_clip_bytes(const QuantisedClip& clip, const Planes& background
   write_planes(writer, background, static_cast<double>(clip.background_step));
   QuantisedClip sorted = clip;
   sort_for_coding(sorted);
-  ClipCoder<RangeWriter> coder(writer, sorted, false, 0);
+  ClipCoder<RangeWriter> coder(writer, sorted, version, false, 0);
   coder.set_persistence(persistence_of(sorted));
   coder.code();
   bytes += writer.finish();
@@ -362,7 +379,8 @@ QuantisedClip read_clip_bytes(const std::string& bytes, const std::string& name)
   HeaderReader header(bytes, name);
   if (bytes.compare(0, kMagic.size(), kMagic) != 0) header.fail("is no clip compressed by motex");
   header.skip(kMagic.size());
-  if (header.take<std::uint32_t>() > kVersion) throw UnsupportedFile(name + ": made by a newer motex; update this one");
+  const auto version = header.take<std::uint32_t>();
+  if (version > kNewestVersion) throw UnsupportedFile(name + ": made by a newer motex; update this one");
   QuantisedClip clip;
   const std::int64_t width = header.take<std::uint32_t>(), height = header.take<std::uint32_t>();
   clip.num_planes = header.take<std::uint8_t>();
@@ -386,7 +404,7 @@ QuantisedClip read_clip_bytes(const std::string& bytes, const std::string& name)
                      static_cast<std::int64_t>(header.at()));
   clip.background =
       read_planes(reader, clip.width, clip.height, clip.num_planes, static_cast<double>(clip.background_step));
-  ClipCoder<RangeReader>(reader, clip, true, 65536 + 16 * static_cast<std::int64_t>(bytes.size())).code();
+  ClipCoder<RangeReader>(reader, clip, version, true, 65536 + 16 * static_cast<std::int64_t>(bytes.size())).code();
   return clip;
 }
 

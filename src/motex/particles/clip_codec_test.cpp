@@ -14,12 +14,12 @@
 namespace motex {
 namespace {
 
-QuantisedPath random_path(Rng& rng, int length) {
+QuantisedPath random_path(Rng& rng, int length, std::size_t num_kinds) {
   QuantisedPath path;
-  path.kind = static_cast<BaseKind>(rng.below(4));
+  path.kind = static_cast<BaseKind>(rng.below(num_kinds));
   path.precision = static_cast<std::int32_t>(rng.below(8)) + kFinestPlace;
   const double size = std::ldexp(1.0, -path.precision);
-  const bool turns = path.kind == BaseKind::kGaborCos || path.kind == BaseKind::kGaborSin;
+  const bool turns = is_oriented(path.kind);
   double x = rng.uniform(-30, 130), y = rng.uniform(-30, 110);
   const double vx = rng.uniform(-4, 4), vy = rng.uniform(-4, 4);
   for (int k = 0; k < length; ++k, x += vx, y += vy) {
@@ -35,7 +35,7 @@ QuantisedPath random_path(Rng& rng, int length) {
   return path;
 }
 
-QuantisedClip random_clip(std::uint64_t seed, int num_planes = 3) {
+QuantisedClip random_clip(std::uint64_t seed, int num_planes = 3, std::size_t num_kinds = kNumBaseKinds) {
   Rng rng(seed);
   QuantisedClip clip;
   clip.width = 101;
@@ -49,8 +49,9 @@ QuantisedClip random_clip(std::uint64_t seed, int num_planes = 3) {
     QuantisedCable& cable = clip.cables.emplace_back();
     cable.first_frame = static_cast<std::int64_t>(rng.below(12));
     const int length = 1 + static_cast<int>(rng.below(static_cast<std::uint64_t>(12 - cable.first_frame)));
-    cable.core = random_path(rng, length);
-    for (std::uint64_t coil = rng.below(3); coil > 0; --coil) cable.coils.push_back(random_path(rng, length));
+    cable.core = random_path(rng, length, num_kinds);
+    for (std::uint64_t coil = rng.below(3); coil > 0; --coil)
+      cable.coils.push_back(random_path(rng, length, num_kinds));
   }
   if (num_planes == 1)
     for (QuantisedCable& cable : clip.cables) {
@@ -88,6 +89,18 @@ TEST(ClipCodec, ReadsExactlyWhatWasWritten) {
       EXPECT_GT(psnr(back.background, background), 46);
       EXPECT_EQ(write_clip_bytes(back, background), bytes);
     }
+}
+
+/// Readers before version 2 know four kinds and refuse what they do not know by its version.
+TEST(ClipCodec, OnlyClipsWithStreaksAreVersionTwo) {
+  for (const std::size_t num_kinds : {kNumBaseKinds - 1, kNumBaseKinds}) {
+    const QuantisedClip clip = random_clip(4, 3, num_kinds);
+    std::string bytes = write_clip_bytes(clip, slopes(clip));
+    EXPECT_EQ(bytes[7], num_kinds == kNumBaseKinds ? 2 : 1);
+    EXPECT_TRUE(read_clip_bytes(bytes, "x").cables == clip.cables);
+    bytes[7] = 3;
+    EXPECT_THROW(read_clip_bytes(bytes, "x"), UnsupportedFile);
+  }
 }
 
 TEST(ClipCodec, AnEmptyClipIsABackground) {

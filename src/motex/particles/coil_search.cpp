@@ -125,8 +125,6 @@ void give_to_nearer(CoilWindow& window, const Base& core, const Base& other) {
 
 }  // namespace
 
-bool is_oriented(BaseKind kind) { return kind == BaseKind::kGaborCos || kind == BaseKind::kGaborSin; }
-
 CoilWindow cut_window(const Plane& residual, const Base& core, const std::vector<Base>& others, double reach) {
   const double half = (reach + 2) * core.scale + 1;
   CoilWindow out;

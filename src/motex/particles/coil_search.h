@@ -35,6 +35,4 @@ CoilFit carry_coil(const CoilWindow& window, const Base& core, const CoilFit& fr
 /// The same base relative to another core: moved, scaled and (oriented cores) turned with it.
 Base moved_with_core(const Base& base, const Base& from_core, const Base& to_core);
 
-bool is_oriented(BaseKind kind);  ///< Gcos, Gsin
-
 }  // namespace motex

@@ -155,7 +155,7 @@ class Quantiser {
         std::min(1.0, std::numbers::sqrt2 * static_cast<double>(out_.coefficient_step) / std::max(1e-9, strength)) *
         std::exp2(scale);
     path.precision = std::clamp(static_cast<int>(std::floor(std::log2(step))), kFinestPlace, kCoarsestPlace);
-    const bool turns = path.kind == BaseKind::kGaborCos || path.kind == BaseKind::kGaborSin;
+    const bool turns = is_oriented(path.kind);
     const double half_turns = std::floor(bases[first].angle / std::numbers::pi);
     const double unit = std::ldexp(1.0, -path.precision);
     for (std::size_t k = first; k < last; ++k) {

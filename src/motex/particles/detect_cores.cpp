@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kRounds = 3;                // searches of what the spots found so far leave
 constexpr double kRoundAspect = 1.5;      // a core below that is a Gaussian
-constexpr double kBarBreadth = 0.6;       // deviation of the bright bar of Gcos across, in its scales
 constexpr double kGaussianMisfit = 0.04;  // up to that an element is a Gaussian, from twice that it has parts
 constexpr int kCleanings = 4;
 constexpr double kSuspicious = 2;    // deviations of the mean square of what a spot leaves
@@ -273,17 +272,21 @@ std::vector<Blob> detect_blobs(const Plane& residual, double noise, const Detect
   return blobs;
 }
 
-BaseKind core_kind(double aspect) { return aspect >= kRoundAspect ? BaseKind::kGaborCos : BaseKind::kGaussian; }
+BaseKind core_kind(double aspect) { return aspect >= kRoundAspect ? BaseKind::kStreak : BaseKind::kGaussian; }
 
 Base core_of(const Blob& blob) { return core_of(blob, core_kind(blob.aspect())); }
 
 Base core_of(const Blob& blob, BaseKind kind) {
-  Base base{kind, blob.x, blob.y, std::clamp(blob.scale(), 0.6, 10.0), 0, {}};
-  if (kind == BaseKind::kGaborCos) {
-    base.scale = std::clamp(blob.scale() / std::sqrt(blob.aspect()) / kBarBreadth, 0.6, 10.0);
+  Base base{kind, blob.x, blob.y, blob.scale(), 0, {}};
+  double stretch = blob.aspect();  // of the spot against the base, which is as large as it
+  if (kind == BaseKind::kStreak) {
+    base.scale /= std::sqrt(kGaborElongation);
     base.angle = std::fmod(blob.angle() + std::numbers::pi / 2, std::numbers::pi);
+    stretch /= kGaborElongation;
   }
-  base.coefficients[0] = static_cast<float>(coefficient_of_peak(base, blob.amplitude));
+  base.scale = std::clamp(base.scale, 0.6, 10.0);
+  const double projected = 2 * std::sqrt(stretch) / (1 + stretch);  // ⟨spot, ψ⟩ / ⟨ψ, ψ⟩ for peaks of 1
+  base.coefficients[0] = static_cast<float>(coefficient_of_peak(base, projected * blob.amplitude));
   return base;
 }
 

@@ -68,8 +68,9 @@ struct ExpectedBlob {
 std::vector<Blob> detect_blobs(const Plane& residual, double noise, const DetectOptions& options,
                                const std::vector<ExpectedBlob>& expected = {}, Plane* left = nullptr);
 
-/// The core base that stands for a spot: a Gaussian where it is nearly round, else the bar (Gcos, turned across its
-/// long axis) of its breadth. Coefficient of plane 0 by its amplitude.
+/// The core base that stands for a spot: a Gaussian where it is nearly round, else a streak turned with it, both of its
+/// area. Coefficient of plane 0 by projection: of the spot's energy a Gaussian leaves ((a − 1) / (a + 1))² at aspect a,
+/// a streak the same at a / 2.
 Base core_of(const Blob& blob);
 /// The same of a kind chosen for the whole life of an element by its typical aspect.
 Base core_of(const Blob& blob, BaseKind kind);

@@ -113,15 +113,32 @@ TEST(DetectCores, SignAndShapeAreDecidedOverTheClip) {
   EXPECT_EQ(birds.shape, CoreShape::kOriented);
 }
 
-TEST(DetectCores, ElongatedElementsBecomeBarsAcrossTheirLongAxis) {
+TEST(DetectCores, ElongatedElementsBecomeStreaks) {
   const std::vector<Plane> frames = clip_of(-90, 1.1, 0.5);
   const DetectOptions options = decided({}, frames, 3);
   const std::vector<Base> cores = detect_cores(frames[0], 3, options);
   ASSERT_EQ(cores.size(), 6U);
   for (const Base& core : cores) {
-    EXPECT_EQ(core.kind, BaseKind::kGaborCos);
+    EXPECT_EQ(core.kind, BaseKind::kStreak);
     EXPECT_NEAR(core.angle, 0.5 + std::numbers::pi / 2, 0.1);
     EXPECT_NEAR(peak_amplitude(core), -90, 12);
+  }
+}
+
+/// What a core leaves of its spot is what the best base of its place and turn leaves, by the formula in core_of().
+TEST(DetectCores, CoresAreProjections) {
+  for (const double aspect : {1.0, 1.3, 2.0, 3.0, 5.0}) {
+    const Blob blob{40.3, 39.8, std::log(4.0), std::log(aspect) * std::cos(0.8), std::log(aspect) * std::sin(0.8), 90};
+    const Base core = core_of(blob);
+    Plane image(80, 80);
+    paint(image, blob);
+    double energy = 0, left = 0;
+    for (const float value : image.values) energy += static_cast<double>(value) * static_cast<double>(value);
+    add_patch(image, render_patch(core, 80, 80), -core.coefficients[0]);
+    for (const float value : image.values) left += static_cast<double>(value) * static_cast<double>(value);
+    const double stretch = core.kind == BaseKind::kStreak ? aspect / 2 : aspect;
+    EXPECT_EQ(core.kind == BaseKind::kStreak, aspect >= 2);
+    EXPECT_NEAR(left / energy, std::pow((stretch - 1) / (stretch + 1), 2), 0.003) << aspect;
   }
 }
 

@@ -46,7 +46,7 @@ SpeciesLikelihood described(const std::vector<Cable>& cores, const MovetonDynami
     options.estimate_errors = true;
     species.dynamics = fit_dynamics(cores, options);
   }
-  std::array<double, 4> kinds{};
+  std::array<double, kNumBaseKinds> kinds{};
   std::array<std::vector<double>, 2> sizes;
   std::vector<double> scales;
   for (const Cable& cable : cores) {
@@ -58,7 +58,7 @@ SpeciesLikelihood described(const std::vector<Cable>& cores, const MovetonDynami
   }
   const auto num = static_cast<double>(cores.size());
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    species.log_kind[k] = std::log((kinds[k] + kPseudoCount) / (num + 4 * kPseudoCount));
+    species.log_kind[k] = std::log((kinds[k] + kPseudoCount) / (num + kNumBaseKinds * kPseudoCount));
   for (std::size_t k = 0; k < 2; ++k) {
     species.log_sign[k] = std::log((static_cast<double>(sizes[k].size()) + kPseudoCount) / (num + 2 * kPseudoCount));
     species.ln_size[k] = SeenNumbers::of(sizes[k], 3.5, 0.15);
@@ -151,7 +151,7 @@ CableLikelihood likelihood_of(const Cable& cable, const std::vector<double>& amp
       scale(dynamics.log_scale, kLeastLogScale, false), amplitude(dynamics.amplitude, kLeastAmplitude, false),
       angle(dynamics.angle, kLeastAngle, false);
   const Base& first = cable.core.front();
-  const bool turns = first.kind == BaseKind::kGaborCos || first.kind == BaseKind::kGaborSin;
+  const bool turns = is_oriented(first.kind);
   const std::size_t sign = amplitudes.front() > 0 ? 1 : 0;
   const double size = std::max(1e-3, std::abs(amplitudes.front())), ln_scale = std::log(first.scale);
   CableLikelihood result;

@@ -45,9 +45,9 @@ struct SeenNumbers {
 struct SpeciesLikelihood {
   double log_share = 0;
   MovetonDynamics dynamics;
-  std::array<double, 4> log_kind{};    ///< by BaseKind
-  std::array<double, 2> log_sign{};    ///< dark, bright
-  std::array<SeenNumbers, 2> ln_size;  ///< of |amplitude|, dark and bright
+  std::array<double, kNumBaseKinds> log_kind{};  ///< by BaseKind
+  std::array<double, 2> log_sign{};              ///< dark, bright
+  std::array<SeenNumbers, 2> ln_size;            ///< of |amplitude|, dark and bright
   SeenNumbers ln_scale;
 };
 

@@ -45,6 +45,8 @@ double analytic_norm(BaseKind kind) {
       return std::sqrt(2 * kPi * (0.5 * (1 + std::exp(-kSquare)) - 2 * std::exp(-0.75 * kSquare) + std::exp(-kSquare)));
     case BaseKind::kGaborSin:
       return std::sqrt(2 * kPi * 0.5 * (1 - std::exp(-kSquare)));
+    case BaseKind::kStreak:
+      return std::sqrt(kGaborElongation * kPi);
     case BaseKind::kGaussian:
       break;
   }

@@ -106,8 +106,7 @@ void BaseRenderer::add(std::span<const Base> bases, Planes& planes) {
   if (planes.size() != 1 && planes.size() != 3) throw InvalidInput("bases are drawn onto 1 or 3 planes");
   for (const Base& base : bases) {
     if (!is_drawable(base, magnification_)) continue;
-    const bool is_gabor = base.kind == BaseKind::kGaborCos || base.kind == BaseKind::kGaborSin;
-    is_gabor ? add_gabor(base, planes) : add_round(base, planes);
+    is_oriented(base.kind) ? add_oriented(base, planes) : add_round(base, planes);
   }
 }
 
@@ -145,11 +144,12 @@ void BaseRenderer::add_round(const Base& base, Planes& planes) {
 
 /// ψ without its norm into patch_, rows padded to whole lanes, and Σ ψ² of the box. With d the place from the centre,
 /// the envelope is e^{−(a dx² + 2 b dx dy + c dy²)}: tables in x and y and, in a row, a power in x; the wave's phase is
-/// a sum of a term in x and one in y.
-double BaseRenderer::evaluate_gabor(const Base& base, int left, int top, int width, int height) {
+/// a sum of a term in x and one in y. A streak is a Gcos of frequency and mean zero.
+double BaseRenderer::evaluate_oriented(const Base& base, int left, int top, int width, int height) {
   const double cos = std::cos(base.angle), sin = std::sin(base.angle), half = 1 / (2 * base.scale * base.scale);
   const double a = (cos * cos + sin * sin / 4) * half, b = 0.75 * cos * sin * half;
-  const double c = (sin * sin + cos * cos / 4) * half, frequency = kGaborFrequency / base.scale;
+  const bool is_sine = base.kind == BaseKind::kGaborSin, is_streak = base.kind == BaseKind::kStreak;
+  const double c = (sin * sin + cos * cos / 4) * half, frequency = is_streak ? 0 : kGaborFrequency / base.scale;
   const auto stride = static_cast<std::size_t>((width + kLanes - 1) / kLanes * kLanes);
   for (std::vector<float>* table : {&bell_, &wave_cos_, &wave_sin_}) table->resize(std::max(table->size(), stride));
   patch_.resize(std::max(patch_.size(), stride * static_cast<std::size_t>(height)));
@@ -170,8 +170,7 @@ double BaseRenderer::evaluate_gabor(const Base& base, int left, int top, int wid
   BellWalk down(first_y, std::sqrt(1 / (2 * c)));
   double skew = std::exp(-2 * b * first_x * first_y), power = std::exp(-2 * b * first_y);
   const double skew_step = std::exp(-2 * b * first_x), power_step = std::exp(-2 * b);
-  const bool is_sine = base.kind == BaseKind::kGaborSin;
-  const auto mean = static_cast<float>(is_sine ? 0 : std::exp(-kGaborFrequency * kGaborFrequency / 2));
+  const auto mean = static_cast<float>(is_sine || is_streak ? 0 : std::exp(-kGaborFrequency * kGaborFrequency / 2));
   double energy = 0;
   for (int y = 0; y < height; ++y) {
     const double phase = frequency * sin * (first_y + y), at = down.next() * skew;
@@ -201,17 +200,17 @@ double BaseRenderer::evaluate_gabor(const Base& base, int left, int top, int wid
   return energy;
 }
 
-void BaseRenderer::add_gabor(const Base& base, Planes& planes) {
+void BaseRenderer::add_oriented(const Base& base, Planes& planes) {
   const Base drawn = magnified(base, magnification_);
   const Box whole = box_of(drawn), box = cut(whole, planes[0]);
   if (box.width <= 0 || box.height <= 0) return;
   double energy = 0;
   if (magnification_ != 1) {
     const Box original = box_of(base);
-    energy = evaluate_gabor(base, original.left, original.top, original.width, original.height);
-    evaluate_gabor(drawn, whole.left, whole.top, whole.width, whole.height);
+    energy = evaluate_oriented(base, original.left, original.top, original.width, original.height);
+    evaluate_oriented(drawn, whole.left, whole.top, whole.width, whole.height);
   } else {
-    energy = evaluate_gabor(drawn, whole.left, whole.top, whole.width, whole.height);
+    energy = evaluate_oriented(drawn, whole.left, whole.top, whole.width, whole.height);
   }
   if (!(energy > 0)) return;
   const double norm = std::sqrt(energy);

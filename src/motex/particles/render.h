@@ -28,8 +28,8 @@ class BaseRenderer {
 
  private:
   void add_round(const Base& base, Planes& planes);
-  void add_gabor(const Base& base, Planes& planes);
-  double evaluate_gabor(const Base& base, int left, int top, int width, int height);
+  void add_oriented(const Base& base, Planes& planes);
+  double evaluate_oriented(const Base& base, int left, int top, int width, int height);
 
   float coefficient(const Base& base, std::size_t plane) const {
     return base.coefficients[num_base_planes_ == 1 ? 0 : plane];

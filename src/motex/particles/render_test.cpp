@@ -19,7 +19,7 @@ std::vector<Base> random_bases(int num, double min_scale, double max_scale, std:
   std::vector<Base> bases;
   for (int k = 0; k < num; ++k) {
     Base base;
-    base.kind = static_cast<BaseKind>(rng.below(4));
+    base.kind = static_cast<BaseKind>(rng.below(kNumBaseKinds));
     base.x = rng.uniform(-6, 70);
     base.y = rng.uniform(-6, 54);
     base.scale = rng.uniform(min_scale, max_scale);

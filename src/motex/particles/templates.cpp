@@ -29,9 +29,11 @@ struct Look {
   std::size_t num_usable = 0;
 };
 
-/// Gcos is the same after half a turn: the half is chosen in which the first coils lie to the positive side of u.
+/// Gcos and streaks are the same after half a turn: the half is chosen in which the first coils lie to the positive
+/// side of u.
 void choose_half(Cable& cable) {
-  if (cable.core.empty() || cable.core[0].kind != BaseKind::kGaborCos) return;
+  const BaseKind kind = cable.core.empty() ? BaseKind::kGaussian : cable.core[0].kind;
+  if (kind != BaseKind::kGaborCos && kind != BaseKind::kStreak) return;
   double moment = 0;
   for (const std::vector<Base>& coil : cable.coils)
     for (std::size_t at = 0; at < cable.core.size(); ++at) {
@@ -148,7 +150,7 @@ void describe_cores(const std::vector<Cable>& cables, const std::vector<std::siz
 }
 
 BaseKind usual_kind(const std::vector<Cable>& cables, const std::vector<std::size_t>& members) {
-  std::array<std::size_t, 4> counts{};
+  std::array<std::size_t, kNumBaseKinds> counts{};
   for (const std::size_t c : members)
     for (const Base& core : cables[c].core) ++counts[static_cast<std::size_t>(core.kind)];
   return static_cast<BaseKind>(std::max_element(counts.begin(), counts.end()) - counts.begin());

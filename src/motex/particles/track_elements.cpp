@@ -97,7 +97,7 @@ Cable cable_of(const SightChain& chain, const BlobFrames& blobs, const ElementMo
   double before = 0;
   for (const Blob& blob : path) {
     Base base = core_of(blob, kind);
-    if (kind == BaseKind::kGaborCos && !cable.core.empty()) base.angle = unwrapped(base.angle, before);
+    if (is_oriented(kind) && !cable.core.empty()) base.angle = unwrapped(base.angle, before);
     before = base.angle;
     cable.core.push_back(base);
   }

@@ -58,7 +58,8 @@ Drawing base_sketch(const BaseMap& map, double magnification, double full_ink) {
     const double width = 0.6 * std::sqrt(magnification);
     if (base->kind == BaseKind::kLog) drawing.add(ring(centre, 1.4 * size, colour, width));
     if (base->kind == BaseKind::kGaussian) drawing.add(Disc{centre, 0.8 * size, colour});
-    if (base->kind == BaseKind::kGaborCos) drawing.add(bar(centre, *base, size, colour, width));
+    if (base->kind == BaseKind::kGaborCos || base->kind == BaseKind::kStreak)
+      drawing.add(bar(centre, *base, size, colour, width));
     if (base->kind == BaseKind::kGaborSin)
       add_edge(drawing, centre, *base, size, amount < 0 ? -1 : 1, with_alpha(kPositive, opacity), width);
   }

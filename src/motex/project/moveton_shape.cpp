@@ -137,8 +137,7 @@ std::vector<std::vector<Point>> cartoon_outlines(std::span<const Base> bases, do
     return outlines;
   }
   const double scale = core.scale * size;
-  if (core.kind == BaseKind::kGaborCos || core.kind == BaseKind::kGaborSin)
-    return {leaf_outline(centre, core.angle, 2.6 * scale, 1.1 * scale)};
+  if (is_oriented(core.kind)) return {leaf_outline(centre, core.angle, 2.6 * scale, 1.1 * scale)};
   return {drop_outline(centre, 1.5 * scale, vx, vy)};
 }
 

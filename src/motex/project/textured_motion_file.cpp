@@ -16,8 +16,28 @@ namespace motex {
 namespace {
 
 constexpr char kKind[] = "textured_motion";
-constexpr std::uint32_t kNewestVersion = 1;
+constexpr std::uint32_t kNewestVersion = 2;
 using Ints = std::vector<std::int64_t>;
+
+bool has_streaks(const std::vector<Cable>& cables) {
+  const auto any = [](const std::vector<Base>& path) {
+    return std::any_of(path.begin(), path.end(), [](const Base& base) { return base.kind == BaseKind::kStreak; });
+  };
+  return std::any_of(cables.begin(), cables.end(), [&](const Cable& cable) {
+    return any(cable.core) || std::any_of(cable.coils.begin(), cable.coils.end(), any);
+  });
+}
+
+/// Version 2 has streaks among the kinds of bases. What has none is version 1, which every motex reads.
+std::uint32_t version_of(const TexturedMotion& model) {
+  for (const MovetonTemplate& one : model.templates)
+    for (const TemplatePose& pose : one.poses) {
+      if (pose.core_kind == BaseKind::kStreak) return 2;
+      for (const TemplateCoil& coil : pose.coils)
+        if (coil.kind == BaseKind::kStreak) return 2;
+    }
+  return has_streaks(model.cables) ? 2 : 1;
+}
 
 void write_clip(ArchiveWriter& out, const TexturedMotion& model) {
   const double numbers[] = {static_cast<double>(model.width),
@@ -94,7 +114,9 @@ void write_templates(ArchiveWriter& out, const TexturedMotion& model) {
 }
 
 BaseKind kind_of(const ArchiveReader& in, double number) {
-  if (!(number >= 0 && number <= 3) || number != std::floor(number)) in.fail("a base is of no known kind");
+  const BaseKind newest = in.version() < 2 ? BaseKind::kGaussian : BaseKind::kStreak;
+  if (!(number >= 0 && number <= static_cast<double>(newest)) || number != std::floor(number))
+    in.fail("a base is of no known kind");
   return static_cast<BaseKind>(static_cast<int>(number));
 }
 
@@ -253,7 +275,7 @@ class CableReader {
 }  // namespace
 
 std::string textured_motion_bytes(const TexturedMotion& model) {
-  ArchiveWriter out(kKind, kNewestVersion);
+  ArchiveWriter out(kKind, version_of(model));
   write_clip(out, model);
   write_templates(out, model);
   write_maps(out, model.maps);

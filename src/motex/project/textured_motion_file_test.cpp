@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "motex/core/archive.h"
 #include "motex/core/error.h"
 #include "motex/core/files.h"
@@ -83,6 +85,27 @@ TEST(TexturedMotionFile, WhatWasWrittenIsRead) {
   EXPECT_EQ(read.cables[1].core[0].coefficients[2], 140);
   EXPECT_EQ(read.maps.births[0].frame, 2);
   EXPECT_EQ(read.maps.bursts[0].cables, std::vector<int>{1});
+}
+
+/// Programs that know version 1 alone know no streaks: they refuse such a model by its version.
+TEST(TexturedMotionFile, OnlyModelsWithStreaksAreVersionTwo) {
+  constexpr std::size_t kVersionByte = 8;
+  const std::string plain = textured_motion_bytes(make_model());
+  EXPECT_EQ(plain[kVersionByte], 1);
+  TexturedMotion in_core = make_model(), in_coil = make_model(), in_pose = make_model(), in_template = make_model();
+  in_core.cables[0].core[1].kind = BaseKind::kStreak;
+  in_coil.cables[1].coils[0][0].kind = BaseKind::kStreak;
+  in_pose.templates[0].poses[1].core_kind = BaseKind::kStreak;
+  in_template.templates[0].poses[1].coils[0].kind = BaseKind::kStreak;
+  for (const TexturedMotion& model : {in_core, in_coil, in_pose, in_template}) {
+    std::string bytes = textured_motion_bytes(model);
+    EXPECT_EQ(bytes[kVersionByte], 2);
+    EXPECT_EQ(textured_motion_bytes(parse_textured_motion(bytes, "m")), bytes);
+    bytes[kVersionByte] = 1;  // says what it is not
+    const std::uint32_t sum = archive_checksum(bytes.substr(0, bytes.size() - 4));
+    std::memcpy(bytes.data() + bytes.size() - 4, &sum, 4);
+    EXPECT_THROW(parse_textured_motion(bytes, "m"), InvalidInput);
+  }
 }
 
 TEST(TexturedMotionFile, AModelWithoutAnythingLearnedIsKept) {
