@@ -14,6 +14,7 @@
 #include "motex/core/parallel.h"
 #include "motex/core/quantile.h"
 #include "motex/image/pyramid.h"
+#include "motex/people/chroma_shift.h"
 #include "motex/people/fill_plane.h"
 #include "motex/people/mask_regions.h"
 #include "motex/people/plate_noise.h"
@@ -206,6 +207,7 @@ CleanPlate screen_plate(std::span<const Image> frames, const ScreenSurface& scre
   plate.noise = measure_plate_noise(plate.picture, frames, noise, PlateTexture::kSmooth, job);
   plate.colour = mean_of(pixels.mean);
   plate.kind = kind_of(plate.colour);
+  plate.chroma_shift = measure_chroma_shift(plate.picture, frames);
   return plate;
 }
 
@@ -251,6 +253,7 @@ CleanPlate natural_plate(std::span<const Image> frames, double noise, const JobC
   plate.picture = picture_of(pixels.mean);
   plate.noise = measure_plate_noise(plate.picture, frames, noise, PlateTexture::kDetailed, job);
   plate.colour = mean_of(pixels.mean);
+  plate.chroma_shift = measure_chroma_shift(plate.picture, frames);
   return plate;
 }
 
@@ -298,6 +301,7 @@ CleanPlate clean_plate_of(const Image& picture, std::span<const Image> frames, c
                        std::to_string(frames[0].height));
   const PlateTexture texture = plate.kind == ScreenKind::kNatural ? PlateTexture::kDetailed : PlateTexture::kSmooth;
   plate.noise = measure_plate_noise(picture, frames, typical_noise(frames), texture, job);
+  plate.chroma_shift = measure_chroma_shift(picture, frames);
   return plate;
 }
 

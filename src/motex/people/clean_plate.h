@@ -29,6 +29,7 @@ struct CleanPlate {
   Rgba colour;                 ///< mean of the screen
   double seen_share = 0;       ///< of the pixels: those that were seen empty; the rest is filled in from around
   bool coarse_colour = false;  ///< VideoInfo::coarse_colour of the footage; nothing here sets it
+  float chroma_shift = 0;      ///< measure_chroma_shift(); heeded where colours are coarse
   double steady_share = 1;     ///< of the pixels: those that showed one thing in at least 40 % of the frames
 };
 

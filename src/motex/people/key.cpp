@@ -12,6 +12,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/options_check.h"
+#include "motex/image/planes.h"
 #include "motex/people/matte_grid.h"
 #include "motex/people/unmix.h"
 
@@ -42,6 +43,7 @@ struct SharedPlate {
   KeyOptions options;
   MatteGridLimits limits;
   int screen_channel = -1;  // 1 = green, 2 = blue; −1 = neither
+  float colours_from = 0;   // pixels to the right: where colours lie that belong to a pixel's light
 };
 
 struct Keyer::State {
@@ -64,6 +66,7 @@ struct Keyer::State {
                   static_cast<std::size_t>(x)];
   }
   void unmix(const FourTriple& level, const FourTriple& back, const Square& square, FourPixels& out) const;
+  Rgba in_place(const Image& frame, int x, int y) const;
   void fill_square(const Image& frame, int column, int row, const Square& square);
   void fill_canvas(const Image& frame);
   void cut_out(Sprite& sprite, int width, int height) const;
@@ -111,14 +114,30 @@ void Keyer::State::unmix(const FourTriple& level, const FourTriple& back, const 
               byte(255 * alpha[i])};
 }
 
+/// Colours of the neighbour on that side and of the pixel itself, half and half, in the pixel's own light.
+Rgba Keyer::State::in_place(const Image& frame, int x, int y) const {
+  const Rgba p = frame.at(x, y);
+  const int from = std::clamp(x + (shared->colours_from > 0 ? 1 : -1), 0, frame.width - 1);
+  const Rgba q = frame.at(from, y);
+  const float r = 0.5F * static_cast<float>(q.r - p.r), g = 0.5F * static_cast<float>(q.g - p.g),
+              b = 0.5F * static_cast<float>(q.b - p.b);
+  const float light = luma_of(r, g, b);
+  const auto moved = [&](std::uint8_t level, float by) {
+    return byte(std::clamp(static_cast<float>(level) + by - light, 0.0F, 255.0F));
+  };
+  return {moved(p.r, r), moved(p.g, g), moved(p.b, b), p.a};
+}
+
 void Keyer::State::fill_square(const Image& frame, int column, int row, const Square& square) {
   const Image& plate = shared->plate.picture;
   const int left = 2 * column, top = 2 * row;
   const int right = std::min(left + 1, frame.width - 1), bottom = std::min(top + 1, frame.height - 1);
-  const std::array<Rgba, 4> p{frame.at(left, top), frame.at(right, top), frame.at(left, bottom),
-                              frame.at(right, bottom)};
+  std::array<Rgba, 4> p{frame.at(left, top), frame.at(right, top), frame.at(left, bottom), frame.at(right, bottom)};
   const std::array<Rgba, 4> q{plate.at(left, top), plate.at(right, top), plate.at(left, bottom),
                               plate.at(right, bottom)};
+  if (shared->colours_from != 0)
+    p = {in_place(frame, left, top), in_place(frame, right, top), in_place(frame, left, bottom),
+         in_place(frame, right, bottom)};
   FourTriple level{}, back{};
   for (std::size_t i = 0; i < 4; ++i) {
     level[0][i] = p[i].r, level[1][i] = p[i].g, level[2][i] = p[i].b;
@@ -197,6 +216,7 @@ Keyer::Keyer(CleanPlate plate, const KeyOptions& options, const Mask& garbage) :
   shared->limits.open_small_holes = is_coloured;
   if (!is_coloured) shared->limits.min_hole = 0.0003 * static_cast<double>(shared->grid.inverse_variances.size());
   shared->screen_channel = plate.kind == ScreenKind::kGreen ? 1 : plate.kind == ScreenKind::kBlue ? 2 : -1;
+  if (plate.coarse_colour) shared->colours_from = plate.chroma_shift;
   state_->canvas.resize(plate.picture.pixels.size());
   shared->plate = std::move(plate);
   state_->shared = std::move(shared);

@@ -18,6 +18,7 @@ extern "C" {
 #include <string>
 
 #include "motex/core/error.h"
+#include "motex/video_io/scaler.h"
 
 namespace motex::libav {
 namespace {
@@ -78,6 +79,12 @@ bool is_full_range(const AVFrame& frame) {
   return description != nullptr && description->nb_components <= 2 && said != AVCOL_RANGE_MPEG;
 }
 
+/// Pictures of full range are JPEG's kin, whose samples of colour lie in the middle unless something else is said.
+int chroma_location_of(const AVFrame& frame) {
+  const int said = number_said(frame.chroma_location);
+  return said == AVCHROMA_LOC_UNSPECIFIED && is_full_range(frame) ? AVCHROMA_LOC_CENTER : said;
+}
+
 /// Where the pixel shown at (x, y) of the turned picture is stored in one of width × height.
 struct Turning {
   Orientation orientation;
@@ -133,12 +140,13 @@ void PixelConverter::set_size(int width, int height, Orientation orientation) {
 void PixelConverter::convert(const AVFrame& frame, int format, int bytes_per_pixel) {
   const AVPixelFormat source = plain_format(static_cast<AVPixelFormat>(frame.format));
   const int matrix = matrix_of(frame), range = is_full_range(frame) ? 1 : 0;
-  const int wanted[8] = {source, frame.width, frame.height, matrix, range, format, width_, height_};
+  const int siting = chroma_location_of(frame);
+  const int wanted[9] = {source, frame.width, frame.height, siting, matrix, range, format, width_, height_};
   if (scaler_ == nullptr || !std::equal(std::begin(wanted), std::end(wanted), made_for_)) {
     constexpr int kFlags = SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT;
     const bool reduces = frame.width >= 2 * width_ && frame.height >= 2 * height_;
-    scaler_.reset(sws_getContext(frame.width, frame.height, source, width_, height_, static_cast<AVPixelFormat>(format),
-                                 kFlags | (reduces ? SWS_AREA : SWS_BICUBIC), nullptr, nullptr, nullptr));
+    scaler_ = new_scaler({frame.width, frame.height, source, siting}, {width_, height_, format},
+                         kFlags | (reduces ? SWS_AREA : SWS_BICUBIC));
     if (scaler_ == nullptr)
       throw UnsupportedFile(std::string("pixels of the kind ") + av_get_pix_fmt_name(source) + " cannot be read");
     sws_setColorspaceDetails(scaler_.get(), sws_getCoefficients(matrix), range, sws_getCoefficients(matrix), 1, 0,

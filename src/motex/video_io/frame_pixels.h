@@ -17,8 +17,9 @@ struct Orientation {
 /// From the 3 × 3 display matrix of the file (null = none).
 Orientation orientation_of(const void* display_matrix);
 
-/// Turns decoded frames into RGB. Colour matrix and range come from the frame; where it is silent, BT.709 from 720 rows
-/// on, else BT.601, and studio range for Y'CbCr (JPEG formats say otherwise).
+/// Turns decoded frames into RGB. Colour matrix, range and siting of colours come from the frame; where it is silent,
+/// BT.709 from 720 rows on, else BT.601, studio range for Y'CbCr (JPEG formats say otherwise), and samples of colour on
+/// the left of their pixels, at full range in the middle.
 class PixelConverter {
  public:
   /// Frames of another size than this are scaled to it: smaller ones by cubic interpolation, those of at least twice
@@ -32,7 +33,8 @@ class PixelConverter {
   /// Converts to `format` (an AVPixelFormat) with `bytes_per_pixel` bytes in buffer_, unturned.
   void convert(const AVFrame& frame, int format, int bytes_per_pixel);
   Handle<SwsContext> scaler_;
-  int made_for_[8] = {-1, 0, 0, 0, 0, 0, 0, 0};  ///< source format, width, height, matrix, range, target format, size
+  /// Source format, width, height, siting of colours, matrix, range, target format, size.
+  int made_for_[9] = {-1, 0, 0, 0, 0, 0, 0, 0, 0};
   int width_ = 0, height_ = 0;
   Orientation orientation_;
   std::vector<std::uint8_t> buffer_;

@@ -20,6 +20,7 @@ extern "C" {
 #include "motex/core/files.h"
 #include "motex/video_io/frame_sink.h"
 #include "motex/video_io/libav_handles.h"
+#include "motex/video_io/scaler.h"
 #include "motex/video_io/video_writer.h"
 
 namespace motex {
@@ -231,8 +232,8 @@ class LibavSink : public FrameSink {
     check(av_frame_get_buffer(frame_.get(), 0), "a frame");
     constexpr int kFlags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_FULL_CHR_H_INP | SWS_BITEXACT;
     const AVPixelFormat target = format_of_pixels_ == AV_PIX_FMT_YUVJ444P ? AV_PIX_FMT_YUV444P : format_of_pixels_;
-    scaler_.reset(sws_getContext(shape_.width, shape_.height, AV_PIX_FMT_RGBA, shape_.width, shape_.height, target,
-                                 kFlags, nullptr, nullptr, nullptr));
+    scaler_ = libav::new_scaler({shape_.width, shape_.height, AV_PIX_FMT_RGBA},
+                                {shape_.width, shape_.height, target, encoder_->chroma_sample_location}, kFlags);
     if (scaler_ == nullptr) throw NumericalFailure(path_.string() + ": the colours cannot be converted");
     const int* matrix = sws_getCoefficients(is_constant_rate() ? SWS_CS_ITU601 : SWS_CS_ITU709);
     sws_setColorspaceDetails(scaler_.get(), matrix, 1, matrix, is_rgb() || is_constant_rate() ? 1 : 0, 0, 1 << 16,

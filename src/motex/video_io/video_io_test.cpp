@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -156,6 +157,54 @@ TEST_F(VideoIo, FlatColoursKeepTheirValue) {
       EXPECT_NEAR(got.g, colour.g, 3) << name;
       EXPECT_NEAR(got.b, colour.b, 3) << name;
     }
+}
+
+/// Means over the middle of a picture of B less a ramp in x, and of R less a ramp in y.
+std::array<double, 2> offsets_of_ramps(const Image& image, double per_pixel) {
+  std::array<double, 2> beyond{};
+  const int reach = image.width / 4;
+  for (int i = -reach; i < reach; ++i)
+    for (int k = -reach; k < reach; ++k) {
+      const Rgba& p = image.at(image.width / 2 + i, image.height / 2 + k);
+      beyond[0] += p.b - per_pixel * (image.width / 2 + i), beyond[1] += p.r - per_pixel * (image.height / 2 + k);
+    }
+  for (double& sum : beyond) sum /= 4.0 * reach * reach;
+  return beyond;
+}
+
+TEST_F(VideoIo, SamplesOfColourLieWhereTheFileSays) {
+  constexpr int kSize = 32;
+  std::string ramps(kSize * kSize, '\x7d');
+  for (int y = 0; y < kSize / 2; ++y)
+    for (int x = 0; x < kSize / 2; ++x) ramps += static_cast<char>(96 + 4 * x);
+  for (int y = 0; y < kSize / 2; ++y)
+    for (int x = 0; x < kSize / 2; ++x) ramps += static_cast<char>(96 + 4 * y);
+  const auto begin_of = [&](const std::string& colours, double of_blue, double of_red) {
+    write_file(folder_ / "x.y4m", "YUV4MPEG2 W32 H32 F25:1 Ip A1:1 " + colours + "\nFRAME\n" + ramps);
+    const Image image = read(folder_ / "x.y4m").at(0).image;
+    return std::array{offsets_of_ramps(image, 2 * of_blue)[0], offsets_of_ramps(image, 2 * of_red)[1]};
+  };
+  constexpr double kOfBlue = 2.017, kOfRed = 1.596;  // levels of B and R a level of Cb and Cr, BT.601
+  const std::array<double, 2> middle = begin_of("C420jpeg", kOfBlue, kOfRed),
+                              left = begin_of("C420mpeg2", kOfBlue, kOfRed),
+                              top_left = begin_of("C420paldv", kOfBlue, kOfRed);
+  EXPECT_NEAR(left[0] - middle[0], kOfBlue, 0.3);  // half a pixel, two levels of Cb a pixel
+  EXPECT_NEAR(left[1] - middle[1], 0, 0.3);
+  EXPECT_NEAR(top_left[0] - middle[0], kOfBlue, 0.3);
+  EXPECT_NEAR(top_left[1] - middle[1], kOfRed, 0.3);
+}
+
+TEST_F(VideoIo, ColoursStayInTheirPlace) {
+  Image ramp(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x)
+      ramp.at(x, y) = {static_cast<std::uint8_t>(4 * y), 120, static_cast<std::uint8_t>(4 * x), 255};
+  for (const char* name : {"x.mp4", "x.webm"}) {
+    const std::array<double, 2> wanted = offsets_of_ramps(ramp, 4),
+                                got = offsets_of_ramps(read(write(name, {3, ramp})).at(1).image, 4);
+    EXPECT_NEAR(got[0], wanted[0], 0.7) << name;  // half a pixel is 2
+    EXPECT_NEAR(got[1], wanted[1], 0.7) << name;
+  }
 }
 
 TEST_F(VideoIo, TheShapeOfPixelsIsKept) {
