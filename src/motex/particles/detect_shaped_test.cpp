@@ -106,6 +106,27 @@ TEST(ElementShapes, TwoWhoseWingsOverlapAreTwo) {
   EXPECT_NEAR(found[1 - left].y, 31, 0.6);
 }
 
+TEST(ElementShapes, SightsSayHowFarShapesDiffer) {
+  const Flock birds = flock();
+  const ElementShapes shapes = learn_element_shapes(birds.frames, birds.blobs, birds.chains, 1);
+  DetectOptions options;
+  options.sign = CoreSign::kBright;
+  options.shape = CoreShape::kRound;
+  Plane alone(200, 60), two(200, 60);
+  add_bird(alone, 95, 28, 2, 80, true);
+  add_bird(two, 95, 28, 2, 80, true);
+  add_bird(two, 103, 31, 2, 80, false);
+  const std::vector<Blob> one = detect_shaped_blobs(alone, shapes, options, 1, {});
+  const std::vector<Blob> both = detect_shaped_blobs(two, shapes, options, 1, {});
+  ASSERT_EQ(one.size(), 1U);
+  ASSERT_EQ(both.size(), 2U);
+  // The states of one bird differ by more than the noise: its sights must stay one path.
+  EXPECT_GT(one[0].log_scale_spread, 0.05);
+  EXPECT_GT(one[0].amplitude_spread, 0.05 * std::abs(one[0].amplitude));
+  EXPECT_GT(one[0].place_spread, 0.05 * one[0].scale());
+  for (const Blob& blob : both) EXPECT_GT(blob.place_spread, 1.5 * one[0].place_spread);
+}
+
 TEST(ElementShapes, FewElementsTeachNone) {
   Flock birds = flock();
   birds.chains.resize(1);
