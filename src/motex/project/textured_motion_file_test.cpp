@@ -158,5 +158,16 @@ TEST(TexturedMotionFile, ReadsVersionOne) {
   EXPECT_NEAR(model.maps.births_per_frame, 0.36363636363636365, 1e-15);
 }
 
+TEST(TexturedMotionFile, ReadsVersionTwo) {
+  const auto path = std::filesystem::path(MOTEX_TEST_DATA) / "../old_files/textured_motion_v2.motex";
+  const TexturedMotion model = load_textured_motion(path);
+  EXPECT_TRUE(textured_motion_bytes(model) == read_file(path));
+  int num_streaks = 0;
+  for (const Cable& cable : model.cables) num_streaks += cable.core[0].kind == BaseKind::kStreak ? 1 : 0;
+  EXPECT_EQ(num_streaks, 7);
+  ASSERT_FALSE(model.cables.empty());
+  EXPECT_NEAR(model.cables[0].core[0].x, 46.029712677001953, 1e-15);
+}
+
 }  // namespace
 }  // namespace motex
