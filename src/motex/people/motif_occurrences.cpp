@@ -3,6 +3,7 @@
 #include "motex/people/motif_occurrences.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace motex {
 
@@ -31,6 +32,37 @@ Pattern mean_of(const MotifSearch& search, const std::vector<Occurrence>& all, i
   for (const Occurrence& one : all)
     if (whole(search, one)) sum += search.frames.pattern(one.start, one.length, window);
   return stretched(sum, window);
+}
+
+void align(const MotifSearch& search, Motif& motif) {
+  const Pattern mean = mean_of(search, motif.occurrences, motif.window);
+  for (Occurrence& one : motif.occurrences) {
+    const Match match = search.frames.closest(mean, middle(one), std::max(2, motif.window / 10));
+    if (match.length > 0) one.start = match.start, one.length = match.length;
+  }
+}
+
+std::vector<double> correlations(const MotifSearch& search, const Motif& motif) {
+  Pattern sum = Pattern::Zero(motif.window, search.series.cols());
+  std::vector<Pattern> own;
+  for (const Occurrence& one : motif.occurrences) {
+    const bool known = whole(search, one);
+    own.push_back(known ? search.frames.pattern(one.start, one.length, motif.window)
+                        : Pattern::Zero(motif.window, search.series.cols()));
+    sum += own.back();
+  }
+  std::vector<double> out;
+  for (std::size_t k = 0; k < own.size(); ++k)
+    out.push_back(whole(search, motif.occurrences[k]) ? own[k].cwiseProduct(stretched(sum - own[k], motif.window)).sum()
+                                                      : -1);
+  return out;
+}
+
+double spread(const MotifSearch& search, const Motif& motif) {
+  double sum = 0, count = 0;
+  for (const double correlation : correlations(search, motif))
+    if (correlation > -1) sum += 2 * (1 - correlation), count += 1;
+  return count > 0 ? sum / count : 2;
 }
 
 }  // namespace motex

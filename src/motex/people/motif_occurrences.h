@@ -25,4 +25,13 @@ bool is_free(const MotifSearch& search, const std::vector<Motif>& motifs, const 
 /// Of what is whole, in `window` rows.
 Pattern mean_of(const MotifSearch& search, const std::vector<Occurrence>& all, int window);
 
+/// Every occurrence is laid anew on the mean of all.
+void align(const MotifSearch& search, Motif& motif);
+
+/// Of every occurrence with the mean of the others; −1 where it is not whole.
+std::vector<double> correlations(const MotifSearch& search, const Motif& motif);
+
+/// Mean squared distance of what is whole.
+double spread(const MotifSearch& search, const Motif& motif);
+
 }  // namespace motex

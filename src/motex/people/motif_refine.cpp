@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "motex/people/motif_gather.h"
+#include "motex/people/motif_join.h"
 #include "motex/people/motif_occurrences.h"
 
 namespace motex {
@@ -18,40 +19,6 @@ constexpr double kMoves = 0.05;      // variance in a piece / in the window: les
 constexpr double kHalved = 2;        // two performances lie √2 times as far apart as each from their mean
 constexpr double kPieceSecs = 0.2;
 constexpr double kSharedPiece = 0.2;  // with another performance: that piece is not free
-
-/// Every occurrence is laid anew on the mean of all.
-void align(const MotifSearch& search, Motif& motif) {
-  const Pattern mean = mean_of(search, motif.occurrences, motif.window);
-  for (Occurrence& one : motif.occurrences) {
-    const Match match = search.frames.closest(mean, middle(one), std::max(2, motif.window / 10));
-    if (match.length > 0) one.start = match.start, one.length = match.length;
-  }
-}
-
-/// Of every occurrence with the mean of the others; −1 where it is not whole.
-std::vector<double> correlations(const MotifSearch& search, const Motif& motif) {
-  Pattern sum = Pattern::Zero(motif.window, search.series.cols());
-  std::vector<Pattern> own;
-  for (const Occurrence& one : motif.occurrences) {
-    const bool known = whole(search, one);
-    own.push_back(known ? search.frames.pattern(one.start, one.length, motif.window)
-                        : Pattern::Zero(motif.window, search.series.cols()));
-    sum += own.back();
-  }
-  std::vector<double> out;
-  for (std::size_t k = 0; k < own.size(); ++k)
-    out.push_back(whole(search, motif.occurrences[k]) ? own[k].cwiseProduct(stretched(sum - own[k], motif.window)).sum()
-                                                      : -1);
-  return out;
-}
-
-/// Mean squared distance of what is whole.
-double spread(const MotifSearch& search, const Motif& motif) {
-  double sum = 0, count = 0;
-  for (const double correlation : correlations(search, motif))
-    if (correlation > -1) sum += 2 * (1 - correlation), count += 1;
-  return count > 0 ? sum / count : 2;
-}
 
 /// Frames start … start + length − 1 in `rows` rows, less their means.
 FrameMatrix sampled(const MotifSearch& search, int start, int length, int rows) {
@@ -249,6 +216,7 @@ void refine_motifs(MotifSearch& search, const std::vector<FrameSpan>& active, st
   }
   share_out(search, motifs);
   gather_performances(search, active, motifs);
+  while (search.options.window == 0 && join_parts(search, motifs)) gather_performances(search, active, motifs);
   for (Motif& motif : motifs) measure(search, motif);
 }
 

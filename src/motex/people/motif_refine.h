@@ -17,8 +17,8 @@ namespace motex {
 ///   more than half of what it moves is the same in every performance (correlation with the mean of the others above
 ///   1/√2), and the whole still agrees as matches do (0.85). It never grows over its own next performance;
 /// - of motifs that now share frames, the one with most frames keeps them.
-/// Last, performances left over are gathered (gather_performances()), and what the end of a take cuts off is shortened
-/// to what is seen of it.
+/// Last, performances left over are gathered (gather_performances()), parts of one action are joined (join_parts()),
+/// and what the end of a take cuts off is shortened to what is seen of it.
 void refine_motifs(MotifSearch& search, const std::vector<FrameSpan>& active, std::vector<Motif>& motifs);
 
 }  // namespace motex

@@ -131,5 +131,18 @@ TEST(MotifRefine, WhatIsCutOffIsNotInTheWayOfAnotherTake) {
   for (const Motif& motif : motifs) EXPECT_EQ(motif.occurrences.size(), 4U);
 }
 
+TEST(MotifRefine, TwoPartsThatAreAlwaysPerformedTogetherAreOneAction) {
+  const auto found = [](const std::string& actions) {
+    std::vector<int> a, b;
+    for (std::size_t k = 0; k < actions.size(); ++k)
+      if (actions[k] != '.') (actions[k] == 'a' ? a : b).push_back(kLength * static_cast<int>(k));
+    return refined(performed(actions, 6), {motif_at(kLength, a), motif_at(kLength, b)});
+  };
+  const std::vector<Motif> together = found(".ab...ab..ab....ab.");
+  ASSERT_EQ(together.size(), 1U);
+  expect_places(together[0], {{50, 100}, {300, 100}, {500, 100}, {800, 100}}, 10);
+  EXPECT_EQ(found(".ab...a..b..ab....a..b.").size(), 2U);
+}
+
 }  // namespace
 }  // namespace motex
