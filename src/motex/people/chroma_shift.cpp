@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 
 #include "motex/image/flat_colours.h"
 #include "motex/image/planes.h"

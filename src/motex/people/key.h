@@ -36,6 +36,7 @@ struct KeyOptions {
 /// 3. F loses the screen's light that is on it, measured against the colour deeper inside (spill_share()); at the rim
 ///    what is too green for that is partly transparent.
 /// Where the footage has colours of half the resolution (4:2:0) α is stretched by 1.5 about ½ at last.
+/// They are read CleanPlate::chroma_shift pixels further right there.
 /// Cost: about 1 ms for 720 × 480 pixels; nothing is allocated once buffers have grown. Not thread-safe; copies share
 /// the plate: one for each thread.
 class Keyer {
