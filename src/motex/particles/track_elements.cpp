@@ -20,7 +20,8 @@ namespace {
 constexpr std::size_t kBackgroundFrames = 31;  // that the background is re-estimated from
 constexpr int kReachOut = 2;                   // frames before and after a path where it is looked for
 constexpr int kFarthest = 16;                  // frames before and after it where its place is known well
-constexpr int kReachOutShaped = 6;             // the same for elements whose shapes are known
+constexpr int kReachOutShaped = 6;             // always, for elements whose shapes are known
+constexpr int kLongerGap = 2;                  // times the frames that these may go unseen: they cover one another
 constexpr int kShapedRounds = 3;
 constexpr int kShapePasses = 2;
 constexpr double kNearlyAsLong = 0.9;  // paths of whole elements stay unless they are in more pieces than before
@@ -201,7 +202,7 @@ class Tracker {
     start_in_bursts(now_.chains, now_.blobs, now_.link.model);
     Expectations expected(now_.blobs, std::move(num_found), now_.link.model,
                           {clip_.width, clip_.height, detect_.shape == CoreShape::kOriented,
-                           has_shapes() ? kReachOutShaped : kReachOut, has_shapes() ? kReachOutShaped : kFarthest});
+                           has_shapes() ? kReachOutShaped : kReachOut, kFarthest});
     for (const SightChain& chain : now_.chains) expected.add(chain);
     BlobFrames found(now_.blobs.size());
     parallel_for(job_.jobs, clip_.num_frames(), [&](int t) {
@@ -216,7 +217,9 @@ class Tracker {
 
   void link() {
     const ElementModel before = now_.link.model;
-    now_.chains = link_chains(sights_of(now_.blobs), clip_.width, clip_.height, options_.link,
+    LinkOptions options = options_.link;
+    if (has_shapes()) options.max_gap *= kLongerGap;
+    now_.chains = link_chains(sights_of(now_.blobs), clip_.width, clip_.height, options,
                               num_looks_++ > 0 ? &before : nullptr, now_.link, job_);
     if (has_shapes())
       drop_paths_of_parts(now_.chains, now_.blobs, now_.link.model, clip_.width, clip_.height, shapes_.are_turned());

@@ -38,7 +38,8 @@ Sight sight_of(const Blob& blob, int frame);
 
 /// Cables of single core bases from frames: detection in each frame, linking, then detection again with the elements
 /// expected where their paths lead (so that overlapping ones are told apart and gaps are filled on the image), with the
-/// background and the noise re-estimated from what the elements leave.
+/// background and the noise re-estimated from what the elements leave. Elements with parts, whose shapes are learned,
+/// cover one another for longer: they may go unseen for twice link.max_gap frames.
 /// background: luma; noise: deviation of a pixel, 0 = measured. Cables in order of their first frame, then x.
 /// Throws InvalidInput (no frames, sizes), Cancelled.
 std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& background, double noise,
