@@ -58,20 +58,28 @@ void average_columns(const std::vector<std::int32_t>& sums, std::vector<float>& 
   }
 }
 
-MOTEX_WIDE void mix_rows(const Row& a, const Row& b, const std::vector<float>& means, float weight, Row& out) {
-  for (std::size_t x = 0; x < out.size(); ++x) {
+/// The share of b of each pixel; means: in, and shares out.
+MOTEX_WIDE void find_shares(const Row& a, const Row& b, float weight, std::vector<float>& means) {
+  float* __restrict share = means.data();
+  for (std::size_t x = 0; x < means.size(); ++x) {
     const float alpha_a = channel(a[x], 24), alpha_b = channel(b[x], 24);
     const float both = std::min(alpha_a, alpha_b) / std::max(std::max(alpha_a, alpha_b), 1.0F);
-    const float t = std::min(std::max((means[x] - kAlike) / (kDifferent - kAlike), 0.0F), 1.0F);
+    const float t = std::min(std::max((share[x] - kAlike) / (kDifferent - kAlike), 0.0F), 1.0F);
     const float steepness = 1 + (kSteepest - 1) * (t * t * (3 - 2 * t)) * both * both;
-    const float w = std::min(std::max(0.5F + steepness * (weight - 0.5F), 0.0F), 1.0F);
-    std::uint32_t pixel = 0;
-    for (int shift = 0; shift < 32; shift += 8) {
-      const float va = channel(a[x], shift), vb = channel(b[x], shift);
-      pixel |= static_cast<std::uint32_t>(static_cast<std::int32_t>(va + (vb - va) * w + 0.5F)) << shift;
-    }
-    out[x] = pixel;
+    share[x] = std::min(std::max(0.5F + steepness * (weight - 0.5F), 0.0F), 1.0F);
   }
+}
+
+inline std::uint32_t mixed(std::uint32_t a, std::uint32_t b, int shift, float share) {
+  const float from = channel(a, shift), to = channel(b, shift);
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(from + (to - from) * share + 0.5F)) << shift;
+}
+
+MOTEX_WIDE void mix_rows(const Row& a, const Row& b, const std::vector<float>& shares, Row& out) {
+  std::uint32_t* __restrict pixels = out.data();
+  for (std::size_t x = 0; x < out.size(); ++x)
+    pixels[x] = mixed(a[x], b[x], 0, shares[x]) | mixed(a[x], b[x], 8, shares[x]) | mixed(a[x], b[x], 16, shares[x]) |
+                mixed(a[x], b[x], 24, shares[x]);
 }
 
 }  // namespace
@@ -80,7 +88,7 @@ Sprite dissolve_where_alike(Sprite a, const Sprite& b, double weight) {
   if (a.left != b.left || a.top != b.top || a.width != b.width || a.height != b.height)
     throw InvalidInput("only pictures of the same rectangle can be dissolved");
   const auto width = static_cast<std::size_t>(a.width);
-  Row row_a(width), row_b(width), mixed(width);
+  Row row_a(width), row_b(width), row(width);
   std::vector<std::uint8_t> differences(a.pixels.size());
   std::vector<std::int32_t> sums(width);
   std::vector<float> means(width);
@@ -94,8 +102,9 @@ Sprite dissolve_where_alike(Sprite a, const Sprite& b, double weight) {
     if (y < 0) continue;
     average_columns(sums, means);
     read_row(a, y, row_a), read_row(b, y, row_b);
-    mix_rows(row_a, row_b, means, static_cast<float>(weight), mixed);
-    std::memcpy(&a.at(0, y), mixed.data(), width * sizeof(std::uint32_t));
+    find_shares(row_a, row_b, static_cast<float>(weight), means);
+    mix_rows(row_a, row_b, means, row);
+    std::memcpy(&a.at(0, y), row.data(), width * sizeof(std::uint32_t));
     if (y >= kReach) add_row(differences_of(y - kReach), -1, sums);
   }
   return a;
