@@ -8,6 +8,7 @@
 #include "motex/core/error.h"
 #include "motex/core/wide.h"
 #include "motex/image/planes.h"
+#include "motex/people/pixel_channel.h"
 
 namespace motex {
 namespace {
@@ -20,10 +21,6 @@ using Row = std::vector<std::uint32_t>;  // pixels
 
 void read_row(const Sprite& sprite, int y, Row& row) {
   std::memcpy(row.data(), &sprite.at(0, y), row.size() * sizeof(std::uint32_t));
-}
-
-inline float channel(std::uint32_t pixel, int shift) {
-  return static_cast<float>(static_cast<std::int32_t>((pixel >> shift) & 0xFFU));
 }
 
 inline float brightness(std::uint32_t pixel) {

@@ -11,6 +11,7 @@
 #include "motex/core/error.h"
 #include "motex/core/parallel.h"
 #include "motex/core/wide.h"
+#include "motex/people/pixel_channel.h"
 
 namespace motex {
 
@@ -114,10 +115,6 @@ inline bool look_up(const Bordered& sprite, int count, Chunk& chunk) {
     any |= p[0] | p[1] | p[sprite.stride] | p[sprite.stride + 1];
   }
   return any != 0;
-}
-
-inline float channel(std::uint32_t pixel, int shift) {
-  return static_cast<float>(static_cast<std::int32_t>((pixel >> shift) & 0xFFU));
 }
 
 inline float interpolated(const Chunk& chunk, std::size_t i, int shift) {
