@@ -44,7 +44,7 @@ struct CutMatch {
 CutMatch cut_match(const MotifSearch& search, const Pattern& pattern, const FrameSpan& take, bool at_end) {
   CutMatch best;
   for (std::size_t k = 0; k < kMatchedTempos; ++k) {
-    const int length = static_cast<int>(std::lround(kTempos[k] * static_cast<double>(pattern.rows())));
+    const int length = played_length(static_cast<int>(pattern.rows()), kTempos[k]);
     const Pattern played = stretched(pattern, length);
     const int most = std::min(length - 1, take.length);
     for (int seen = static_cast<int>(std::ceil(kLeastSeen * length)); seen <= most; ++seen) {

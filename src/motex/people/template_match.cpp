@@ -25,8 +25,6 @@ void normalise(Pattern& pattern) {
   if (norm > 0) pattern /= norm;
 }
 
-int played_length(int rows, double tempo) { return std::max(4, static_cast<int>(std::lround(rows * tempo))); }
-
 constexpr int kLanes = 4;
 constexpr int kVectors = 8;  // half of AVX2's registers
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
@@ -52,6 +50,8 @@ MOTEX_WIDE void add_products(const double* x, const double* weights, int m, int 
 }
 
 }  // namespace
+
+int played_length(int rows, double tempo) { return std::max(4, static_cast<int>(std::lround(rows * tempo))); }
 
 Pattern stretched(const Pattern& pattern, int rows) {
   Pattern out(rows, pattern.cols());

@@ -24,6 +24,8 @@ struct Match {
 /// no closer at another tempo.
 inline constexpr std::array<double, 9> kTempos{1.0, 0.95, 1.05, 0.9, 1.1, 0.86, 1.16, 0.82, 1.22};
 inline constexpr std::size_t kMatchedTempos = 7;
+/// Frames that a pattern of `rows` frames takes at a tempo; at least 4.
+int played_length(int rows, double tempo);
 
 /// Pattern of an action: rows = frames, columns = signals, each column of mean 0, all together of norm 1 (0: constant).
 using Pattern = FrameMatrix;
