@@ -12,6 +12,10 @@ namespace motex {
 
 using LevelTriple = std::array<float, 3>;  ///< R, G, B in grey levels 0 … 255
 
+inline LevelTriple levels(const Rgba& p) {
+  return {static_cast<float>(p.r), static_cast<float>(p.g), static_cast<float>(p.b)};
+}
+
 /// Up to `count` colours that stand for many: k-means, started from as many quantiles of the luma, so the same for the
 /// same input; darkest first. weights: empty = all alike. Throws InvalidInput when count < 1 or nothing is given.
 std::vector<LevelTriple> palette(std::span<const LevelTriple> colours, std::span<const double> weights, int count);

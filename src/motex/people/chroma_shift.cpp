@@ -28,10 +28,6 @@ constexpr float kLopsided = 0.12F;
 
 float dot(const LevelTriple& a, const LevelTriple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-LevelTriple levels(const Rgba& p) {
-  return {static_cast<float>(p.r), static_cast<float>(p.g), static_cast<float>(p.b)};
-}
-
 float difference(const Image& a, const Image& b, int x, int y) {
   const LevelTriple p = levels(a.at(x, y)), q = levels(b.at(x, y));
   return std::sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) + (p[2] - q[2]) * (p[2] - q[2]));

@@ -65,8 +65,7 @@ PixelStatistics cluster_pixels(std::span<const Image> frames, const ScreenSurfac
       cluster.clear();
       const LevelTriple expected = screen != nullptr ? screen->at(x, y) : LevelTriple{};
       for (const Image& frame : frames) {
-        const Rgba& p = frame.at(x, y);
-        const LevelTriple level{static_cast<float>(p.r), static_cast<float>(p.g), static_cast<float>(p.b)};
+        const LevelTriple level = levels(frame.at(x, y));
         if (screen == nullptr || is_near(level, expected, reach)) cluster.add(level);
       }
       const SampleCluster::Result result = cluster.largest();
