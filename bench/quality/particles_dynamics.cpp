@@ -34,11 +34,11 @@ std::vector<Cable> with_errors(std::vector<Cable> cables, double error, Rng& rng
   return cables;
 }
 
-std::vector<Cable> tracked(const SimulatedScene& scene) {
+std::vector<Cable> tracked(const SimulatedScene& scene, TrackElementsReport* report = nullptr) {
   const ClipFrames clip = clip_frames_of(scene);
   std::vector<Planes> frames;
   for (const Plane& plane : clip.luma) frames.push_back({plane});
-  return track_elements(clip, quantile_over_time(frames, 0.5)[0], 0, {});
+  return track_elements(clip, quantile_over_time(frames, 0.5)[0], 0, {}, {}, report);
 }
 
 /// Places drawn from their posterior given the frames, from that start.
@@ -113,9 +113,11 @@ void measure_dynamics(double elements, double persistence, double deviation, std
     report((name + ", found").c_str(), measured, unknown);
   }
   if (!from_frames) return;
-  const std::vector<Cable> found = tracked(scene);
+  TrackElementsReport tracking;
+  const std::vector<Cable> found = tracked(scene, &tracking);
   report("tracked, regressed", found, {});
   report("tracked, found", found, unknown);
+  report("tracked, as seen", tracking.seen, unknown);
   report("tracked, sampled", sampled(scene, found, seed), {});
   report("error 0.5, sampled", sampled(scene, with_errors(truth, 0.5, rng), seed), {});
 }

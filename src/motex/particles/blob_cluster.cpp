@@ -104,6 +104,16 @@ template <int N>
 MOTEX_WIDE void add_outer(const float* a, const float* b, int num, Lanes<4>* sum) { add_products<4>(a, b, num, sum); }
 MOTEX_WIDE void add_outer(const float* a, const float* b, int num, Lanes<8>* sum) { add_products<8>(a, b, num, sum); }
 
+/// Of parameter p: 1 / variance = what the picture says + what the prior says.
+double variance_without_prior(double variance, const BlobPrior& prior, std::size_t p) {
+  constexpr double kLeastShare = 0.05;  // of what is known that the picture must say
+  return variance / std::max(kLeastShare, 1 - variance * prior.precision[p]);
+}
+
+double without_prior(double value, double variance, const BlobPrior& prior, std::size_t p) {
+  return value + prior.precision[p] * variance_without_prior(variance, prior, p) * (value - prior.mean[p]);
+}
+
 /// Levenberg–Marquardt of the members of one cluster; N = padded number of parameters.
 template <int N>
 class ClusterSolver {
@@ -305,7 +315,13 @@ class ClusterSolver {
     for (std::size_t k = 0; k < num_; ++k) {
       const Eigen::Index row = n * static_cast<Eigen::Index>(k);
       Blob& blob = members_[k].blob;
-      blob.place_spread = std::sqrt(std::max(0.0, 0.5 * (covariance(row, row) + covariance(row + 1, row + 1))));
+      const double x_variance = std::max(0.0, covariance(row, row)),
+                   y_variance = std::max(0.0, covariance(row + 1, row + 1));
+      blob.place_spread = std::sqrt(0.5 * (x_variance + y_variance));
+      blob.seen_x = without_prior(blob.x, x_variance, priors_[k], 0);
+      blob.seen_y = without_prior(blob.y, y_variance, priors_[k], 1);
+      blob.seen_spread = std::sqrt(0.5 * (variance_without_prior(x_variance, priors_[k], 0) +
+                                          variance_without_prior(y_variance, priors_[k], 1)));
       blob.log_scale_spread = std::sqrt(std::max(0.0, covariance(row + 2, row + 2)));
       blob.amplitude_spread = std::sqrt(std::max(0.0, covariance(row + n - 1, row + n - 1)));
     }

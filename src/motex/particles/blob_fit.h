@@ -21,6 +21,7 @@ struct Blob {
   double amplitude = 0;     ///< A, grey levels
   double place_spread = 0;  ///< deviation of x and y that the noise brings about in the joint fit, pixels
   double log_scale_spread = 0, amplitude_spread = 0;
+  double seen_x = 0, seen_y = 0, seen_spread = 0;  ///< place and deviation by the picture alone, without the prior
   double turn = 0;  ///< of an element with parts: from the pictures of its shapes (element_shapes.h), radians
 
   double scale() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -86,6 +87,7 @@ std::vector<BurstStart> start_in_bursts(std::vector<SightChain>& chains, BlobFra
       Blob blob = first_look(chain, blobs);
       blob.x = place_at(model.x, burst.x, later.x, frame - burst.frame, later.frame - burst.frame);
       blob.y = place_at(model.y, burst.y, later.y, frame - burst.frame, later.frame - burst.frame);
+      blob.seen_spread = std::numeric_limits<double>::infinity();
       Sight sight = chain.sights.front();
       sight.x = blob.x;
       sight.y = blob.y;

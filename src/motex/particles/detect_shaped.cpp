@@ -73,7 +73,10 @@ class ShapedDetector {
       blob.log_scale += e.log_scale;
       blob.amplitude *= e.amplitude;
       blob.turn = e.turn;
-      blob.place_spread = std::hypot(e.place_spread, blob.scale() * (kLeastSpread + kCrowdSpread * crowding(e)));
+      blob.seen_x = e.x;
+      blob.seen_y = e.y;
+      blob.seen_spread = blob.place_spread =
+          std::hypot(e.place_spread, blob.scale() * (kLeastSpread + kCrowdSpread * crowding(e)));
       blob.log_scale_spread = std::hypot(e.log_scale_spread, kLeastLevelSpread);
       blob.amplitude_spread =
           std::hypot(e.amplitude_spread * std::abs(shapes_.core.amplitude), kLeastLevelSpread * blob.amplitude);

@@ -50,6 +50,7 @@ class Learning {
     TrackElementsReport report;
     model().cables = track_elements(clip_, luma(background_.still()), 0, {}, job_.part(0.05, 0.4), &report);
     model().flow = report.link.flow.flow;
+    seen_ = std::move(report.seen);
     learned_.report.expected_wrong_links = report.link.expected_wrong_share;
     if (model().cables.empty())
       throw InvalidInput("nothing moves in the clip that stands out from its background as an element");
@@ -138,12 +139,19 @@ class Learning {
 
   MovetonDynamics dynamics_of(int species) {
     std::vector<Cable> cores;
-    for (const Cable& cable : model().cables) {
+    for (std::size_t k = 0; k < model().cables.size(); ++k) {
+      const Cable& cable = model().cables[k];
       if (cable.species != species) continue;
       Cable& one = cores.emplace_back();
       one.first_frame = cable.first_frame;
       one.core = cable.core;
-      for (Base& base : one.core) base.coefficients[0] = static_cast<float>(luma_coefficient(base, clip_.num_planes()));
+      for (std::size_t t = 0; t < one.core.size(); ++t) {
+        Base& base = one.core[t];
+        base.coefficients[0] = static_cast<float>(luma_coefficient(base, clip_.num_planes()));
+        if (sampled_) continue;
+        base.x = seen_[k].core[t].x;
+        base.y = seen_[k].core[t].y;
+      }
     }
     FitDynamicsOptions fit_options;
     fit_options.estimate_errors = !sampled_;
@@ -177,7 +185,8 @@ class Learning {
   const JobContext& job_;
   ClipBackground background_;
   LearnedTexturedMotion learned_;
-  bool sampled_ = false;  ///< cables are a sample of the chain, not linked detections
+  std::vector<Cable> seen_;  ///< the linked cables where the picture shows them (TrackElementsReport::seen)
+  bool sampled_ = false;     ///< cables are a sample of the chain, not linked detections
 };
 
 /// Water has no cores: its bases are carried.

@@ -28,6 +28,7 @@ constexpr double kNearlyAsLong = 0.9;  // paths of whole elements stay unless th
 constexpr double kCoarse = 0.97;  // share of light explained, below which shapes are learned again from what they found
 constexpr double kHasParts = 0.06;      // shape_misfit from which elements are no single spots
 constexpr double kWellExplained = 0.8;  // share of their light that shapes must explain to be used
+constexpr double kWellSeen = 0.5;       // pixels
 constexpr double kCrowd = 100;          // elements a frame from which those that stand alone are odd ones
 
 void check(const ClipFrames& frames, const Plane& background) {
@@ -105,6 +106,18 @@ Cable cable_of(const SightChain& chain, const BlobFrames& blobs, const ElementMo
   return cable;
 }
 
+/// With the places that the picture alone shows, where it shows them.
+Cable as_seen(Cable cable, const SightChain& chain, const BlobFrames& blobs) {
+  for (std::size_t k = 0; k < chain.sights.size(); ++k) {
+    const Blob& blob = blob_at(blobs, chain, k);
+    Base& base = cable.core[static_cast<std::size_t>(chain.sights[k].frame - cable.first_frame)];
+    if (blob.seen_spread > kWellSeen) continue;
+    base.x = blob.seen_x;
+    base.y = blob.seen_y;
+  }
+  return cable;
+}
+
 double sights_per_frame(const BlobFrames& blobs) {
   double sum = 0;
   for (const auto& frame : blobs) sum += static_cast<double>(frame.size());
@@ -149,7 +162,7 @@ class Tracker {
       }
     }
     report.detections_per_frame = sights_per_frame(now_.blobs);
-    std::vector<Cable> cables = finished();
+    std::vector<Cable> cables = finished(report);
     report.link = std::move(now_.link);
     report.link.confidences.clear();
     for (const SightChain& chain : now_.chains) report.link.confidences.push_back(chain.confidence);
@@ -235,11 +248,14 @@ class Tracker {
     return has_shapes();
   }
 
-  std::vector<Cable> finished() {
+  std::vector<Cable> finished(TrackElementsReport& report) {
     std::vector<BurstStart> starts = start_in_bursts(now_.chains, now_.blobs, now_.link.model);
     drop_pieces_of_bursts(now_.chains, now_.blobs, starts);
     std::vector<Cable> cables;
-    for (const SightChain& chain : now_.chains) cables.push_back(cable_of(chain, now_.blobs, now_.link.model));
+    for (const SightChain& chain : now_.chains) {
+      cables.push_back(cable_of(chain, now_.blobs, now_.link.model));
+      report.seen.push_back(as_seen(cables.back(), chain, now_.blobs));
+    }
     share_light(starts, now_.left, cables);
     return cables;
   }

@@ -31,6 +31,9 @@ struct TrackElementsReport {
   Plane background;      ///< luma, re-estimated from what the elements leave
   double noise = 0;      ///< deviation of a pixel from background + elements, grey levels
   double detections_per_frame = 0;
+  /// The cables with places as the picture alone shows them, where it shows them (to within half a pixel). Dynamics of
+  /// linked cables are learned from these: smoothed places have more persistence than the elements.
+  std::vector<Cable> seen;
 };
 
 /// A detection for the linking, with what the fit says of its errors.

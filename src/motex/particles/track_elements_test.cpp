@@ -11,6 +11,7 @@
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
 #include "motex/particles/cable_tracks.h"
+#include "motex/particles/fit_dynamics.h"
 #include "motex/particles/simulate.h"
 #include "motex/particles/track_score.h"
 
@@ -84,6 +85,19 @@ TEST(TrackElements, SnowIsTrackedAndItsNoiseAndDynamicsFound) {
   EXPECT_EQ(report.detect.sign, CoreSign::kBright);
   for (const Cable& cable : cables)
     for (const Base& core : cable.core) EXPECT_EQ(core.kind, BaseKind::kGaussian);
+}
+
+TEST(TrackElements, PlacesAsSeenKeepTheDynamicsThatSmoothingChanges) {
+  const Snow snow = snowfall(45, 60, 3);  // persistence 0.7, deviation 0.25
+  TrackElementsReport report;
+  const std::vector<Cable> cables = track_elements(snow.clip, snow.background, 0, {}, {}, &report);
+  ASSERT_EQ(report.seen.size(), cables.size());
+  FitDynamicsOptions options;
+  options.estimate_errors = true;
+  for (const CoordinateDynamics& axis : {fit_dynamics(report.seen, options).x, fit_dynamics(report.seen, options).y}) {
+    EXPECT_NEAR(axis.persistence(), 0.7, 0.05);
+    EXPECT_NEAR(axis.d, 0.25, 0.02);
+  }
 }
 
 TEST(TrackElements, TheSecondRoundTellsMoreOfThemApart) {
