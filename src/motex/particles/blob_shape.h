@@ -21,7 +21,10 @@ struct PixelBox {
   int width() const { return right - left; }
   int height() const { return bottom - top; }
   bool is_empty() const { return right <= left || bottom <= top; }
-  std::size_t area() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
+  /// 0 of an empty one, whose width or height may be negative: of a blob beyond the picture.
+  std::size_t area() const {
+    return is_empty() ? 0 : static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
+  }
 };
 
 PixelBox intersection(const PixelBox& a, const PixelBox& b);

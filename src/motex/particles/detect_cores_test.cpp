@@ -10,6 +10,7 @@
 
 #include "motex/core/error.h"
 #include "motex/core/rng.h"
+#include "motex/particles/blob_fit.h"
 #include "motex/particles/cable.h"
 
 namespace motex {
@@ -51,6 +52,15 @@ TEST(DetectCores, NothingIsFoundInNoise) {
   EXPECT_TRUE(detect_blobs(Plane(0, 0), 4, round_and_bright()).empty());
   EXPECT_NEAR(noise_of({image}), 4, 0.1);
   EXPECT_THROW(noise_of({}), InvalidInput);
+}
+
+TEST(DetectCores, AFlatSpotBeyondTheEdgeIsFittedToNothing) {
+  BlobFitter fitter(noise_plane(100, 80, 4, 2), {4, true});
+  fitter.add({50, 88, std::log(3.9), 1.8, 0, 3});  // its box ends a pixel below the picture
+  fitter.add({50, 40, std::log(2.0), 0, 0, 30});
+  EXPECT_NO_THROW(fitter.fit(2));
+  EXPECT_EQ(fitter.blobs().size(), 2U);
+  EXPECT_EQ(fitter.misfit(0), 0);
 }
 
 TEST(DetectCores, PlaceScaleAndAmplitudeAreThoseOfTheSpot) {
