@@ -19,6 +19,7 @@ constexpr int kFewestFrames = 12;
 constexpr int kFewestToTell = 30;  // in fewer frames whatever passes is there for a good part of the time, as water is
 constexpr double kShown = 0.85;    // share of what moves that bases must show
 constexpr double kMostPeaked = 4.8;   // Σ m₄ / Σ m₂² of water
+constexpr double kLeastSmooth = 0.3;  // correlation of neighbouring pixels: noise has none
 constexpr double kLeastSteady = 0.4;  // of the motion of the liveliest third of the clip, in the stillest
 const std::vector<int> kNumbers{200, 400, 800, 1600, 3200};
 
@@ -107,6 +108,28 @@ double peakedness(const ClipFrames& clip) {
   return above / below;
 }
 
+/// Correlation over time of pixels beside one another: 0 for the noise of a camera.
+double smoothness(const ClipFrames& clip) {
+  const std::size_t width = static_cast<std::size_t>(clip.width), area = clip.luma[0].values.size();
+  const auto num = static_cast<double>(clip.num_frames());
+  std::vector<double> mean(area);
+  for (const Plane& frame : clip.luma)
+    for (std::size_t i = 0; i < area; ++i) mean[i] += static_cast<double>(frame.values[i]) / num;
+  double products = 0, squares = 1e-9;
+  for (const Plane& frame : clip.luma) {
+    double before = 0;
+    for (std::size_t i = 0; i < area; ++i) {
+      const double d = static_cast<double>(frame.values[i]) - mean[i];
+      if (i % width != 0) {
+        products += d * before;
+        squares += (d * d + before * before) / 2;
+      }
+      before = d;
+    }
+  }
+  return products / squares;
+}
+
 /// Energy of the differences between frames in the stillest third of the clip / in the liveliest.
 double steadiness(const ClipFrames& clip) {
   double thirds[3] = {0, 0, 0};
@@ -124,7 +147,8 @@ double steadiness(const ClipFrames& clip) {
 }  // namespace
 
 bool looks_like_water(const ClipFrames& clip, const JobContext& job) {
-  if (clip.num_frames() < kFewestToTell || peakedness(clip) > kMostPeaked) return false;
+  if (clip.num_frames() < kFewestToTell || peakedness(clip) > kMostPeaked || smoothness(clip) < kLeastSmooth)
+    return false;
   const SteadyClip steady_clip = steady(clip, job);
   return peakedness(steady_clip.clip) <= kMostPeaked && steadiness(steady_clip.clip) >= kLeastSteady;
 }

@@ -180,6 +180,18 @@ TEST_F(WaterTest, BadInputIsRefused) {
   EXPECT_THROW(WaterSource(water_model->model, {}, 1, 1), InvalidInput);
 }
 
+TEST(LooksLikeWater, AFallDoesAndTheNoiseOfACameraDoesNot) {
+  EXPECT_TRUE(looks_like_water(fall(40)));
+  EXPECT_FALSE(looks_like_water(fall(12)));
+  Rng rng(1);
+  ClipFrames still{kWidth, kHeight, 25, {}, {}};
+  for (int t = 0; t < 40; ++t) {
+    Plane& frame = still.luma.emplace_back(kWidth, kHeight, 90);
+    for (float& value : frame.values) value += static_cast<float>(4 * rng.normal());
+  }
+  EXPECT_FALSE(looks_like_water(still));
+}
+
 TEST(Star, FindsTheWeightsOfAKnownProcess) {
   constexpr int kSide = 48;
   Rng rng(2);
