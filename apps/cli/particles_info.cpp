@@ -114,6 +114,7 @@ struct Info {
     object["flow_x"] = model.flow.vx;
     object["flow_y"] = model.flow.vy;
     object["flow_peak_ratio"] = model.flow.peak_ratio;
+    object["water"] = model.water.has_value();
     object["cables"] = static_cast<std::int64_t>(model.cables.size());
     object["elements_per_frame"] = per_frame(model, counts.elements);
     object["bases_per_frame"] = per_frame(model, counts.bases);
@@ -132,26 +133,26 @@ struct Info {
   }
 
   std::string text(const TexturedMotion& model, const CableCounts& counts, const CompressionSummary& sizes) const {
-    std::string out =
-        text_pairs({{"model", model_path},
-                    {"learned from", model.source + ", " + std::to_string(model.num_frames) + " frames of " +
-                                         std::to_string(model.width) + " × " + std::to_string(model.height) + " at " +
-                                         fixed(model.frames_per_sec, 2) + " a second"},
-                    {"background",
-                     std::string(name_of(model.background_kind)) + ", noise " + fixed(model.noise, 2) + " grey levels"},
-                    {"elements", std::to_string(model.cables.size()) + " followed, " +
-                                     fixed(per_frame(model, counts.elements), 1) + " a frame, " +
-                                     fixed(counts.mean_life, 1) + " frames long"},
-                    {"bases", fixed(per_frame(model, counts.bases), 1) + " a frame"},
-                    {"shared flow", fixed(model.flow.vx, 2) + ", " + fixed(model.flow.vy, 2) + " px a frame, " +
-                                        (model.flow.peak_ratio < 20 ? "not to be trusted" : "clear") + " (peak " +
-                                        fixed(model.flow.peak_ratio, 0) + " × the median)"},
-                    {"births", fixed(model.maps.births_per_frame, 2) + " a frame, " +
-                                   std::to_string(model.maps.bursts.size()) + " bursts"},
-                    {"compression", "clip " + fixed(sizes.clip_ratio(), 0) + " × (" + std::to_string(sizes.clip_bytes) +
-                                        " bytes), model alone " + fixed(sizes.model_ratio(), 0) + " × (" +
-                                        std::to_string(sizes.model_bytes) + " bytes)"},
-                    {"seed", std::to_string(model.seed)}});
+    std::string out = text_pairs(
+        {{"model", model_path},
+         {"learned from", model.source + ", " + std::to_string(model.num_frames) + " frames of " +
+                              std::to_string(model.width) + " × " + std::to_string(model.height) + " at " +
+                              fixed(model.frames_per_sec, 2) + " a second"},
+         {"background",
+          std::string(name_of(model.background_kind)) + ", noise " + fixed(model.noise, 2) + " grey levels"},
+         {model.water ? "water" : "elements",
+          std::to_string(model.cables.size()) + (model.water ? " bases carried, " : " followed, ") +
+              fixed(per_frame(model, counts.elements), 1) + " a frame, " + fixed(counts.mean_life, 1) + " frames long"},
+         {"bases", fixed(per_frame(model, counts.bases), 1) + " a frame"},
+         {"shared flow", fixed(model.flow.vx, 2) + ", " + fixed(model.flow.vy, 2) + " px a frame, " +
+                             (model.flow.peak_ratio < 20 ? "not to be trusted" : "clear") + " (peak " +
+                             fixed(model.flow.peak_ratio, 0) + " × the median)"},
+         {"births",
+          fixed(model.maps.births_per_frame, 2) + " a frame, " + std::to_string(model.maps.bursts.size()) + " bursts"},
+         {"compression", "clip " + fixed(sizes.clip_ratio(), 0) + " × (" + std::to_string(sizes.clip_bytes) +
+                             " bytes), model alone " + fixed(sizes.model_ratio(), 0) + " × (" +
+                             std::to_string(sizes.model_bytes) + " bytes)"},
+         {"seed", std::to_string(model.seed)}});
     std::vector<std::vector<std::string>> rows{
         {"species", "share %", "scale px", "peak", "poses", "coils", "velocity", "persistence"}};
     for (std::size_t k = 0; k < model.templates.size(); ++k) {

@@ -74,8 +74,13 @@ struct Learn {
     learned.model.source = video;
     session.job().check_cancelled();
     save_textured_motion(output, learned.model);
-    session.say("wrote " + output + ": " + std::to_string(learned.model.cables.size()) + " elements followed, " +
-                fixed(session.secs(), 1) + " s");
+    const bool is_water = learned.model.water.has_value();
+    session.say("wrote " + output + ": " + std::to_string(learned.model.cables.size()) +
+                (is_water ? " bases carried" : " elements followed") + ", " + fixed(session.secs(), 1) + " s");
+    if (is_water && options.tracking == TrackingKind::kAuto)
+      session.say(
+          "learned as water, since its light goes up and down all the time; --tracking cores follows elements that can "
+          "be told apart");
     session.say("next: motex particles synthesize " + output + " -o new.mp4 --frames 300");
     session.result(value(clip, learned), text(learned));
   }
@@ -86,6 +91,7 @@ struct Learn {
     object["model"] = output;
     object["video"] = video;
     object["frames"] = clip.num_frames();
+    object["water"] = learned.model.water.has_value();
     object["cables"] = static_cast<std::int64_t>(learned.model.cables.size());
     object["templates"] = static_cast<std::int64_t>(learned.model.templates.size());
     object["learning"] = report_value(learned.report);
@@ -96,13 +102,16 @@ struct Learn {
   }
 
   static std::string text(const LearnedTexturedMotion& learned) {
-    std::vector<std::vector<std::string>> rows{{"round", "PSNR dB", "noise", "elements"},
+    const bool is_water = learned.model.water.has_value();
+    std::vector<std::vector<std::string>> rows{{"round", "PSNR dB", "noise", is_water ? "bases" : "elements"},
                                                {"background", fixed(learned.report.background_psnr, 2), "", ""}};
     for (std::size_t k = 0; k < learned.report.rounds.size(); ++k) {
       const LearnRound& round = learned.report.rounds[k];
-      rows.push_back({k == 0 ? "linked" : "sampled " + std::to_string(k), fixed(round.psnr, 2), fixed(round.noise, 2),
+      const char* first = is_water ? "carried" : "linked";
+      rows.push_back({k == 0 ? first : "sampled " + std::to_string(k), fixed(round.psnr, 2), fixed(round.noise, 2),
                       std::to_string(round.num_cables)});
     }
+    if (is_water) return text_table(rows);
     return text_table(rows) + "\nlinks expected wrong  " + fixed(100 * learned.report.expected_wrong_links, 2) +
            " %\n" + moves_table(learned.report.moves);
   }

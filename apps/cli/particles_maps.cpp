@@ -84,6 +84,10 @@ struct Maps {
     check_output_folder(output, session);
     const TexturedMotion model = load_particles_model(model_path);
     const BirthDeathMaps& maps = model.maps;
+    if (model.water)
+      throw InvalidInput(model_path +
+                         ": is a model of water, whose bases are born together: it has no maps (learn with --tracking "
+                         "cores where there are elements)");
     if (maps.source.values.empty()) throw InvalidInput(model_path + ": holds no birth and death maps; learn it again");
     const Value object = value(model);
     if (!session.flags.dry_run) {

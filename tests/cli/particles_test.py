@@ -387,8 +387,11 @@ class Tracking(CommandTest):
         video = write_waterfall(self.folder / "water")
         report, model = self.learn(video)
         self.assertEqual(report["options"]["tracking"], "auto")
+        self.assertTrue(report["water"])
         self.assertEqual(report["templates"], 0)
         self.assertGreater(report["cables"], 200)
+        self.assertTrue(self.one_json_object("particles", "info", model)["water"])
+        self.fail_with(2, "particles", "maps", model, "-o", self.folder / "maps", saying="water")
         carried, _ = self.learn(video, "--tracking", "carry")
         self.assertEqual(carried["cables"], report["cables"])
         made = self.folder / "o.mkv"
@@ -402,6 +405,7 @@ class Tracking(CommandTest):
     def test_snow_is_elements_and_may_be_carried(self):
         video = write_snow(self.folder / "snow", 14)
         report, _ = self.learn(video, "--rounds", "0")
+        self.assertFalse(report["water"])
         elements, _ = self.learn(video, "--rounds", "0", "--tracking", "cores")
         self.assertEqual(report["cables"], elements["cables"])
         carried, model = self.learn(video, "--tracking", "carry")

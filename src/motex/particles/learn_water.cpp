@@ -108,26 +108,21 @@ double peakedness(const ClipFrames& clip) {
   return above / below;
 }
 
-/// Correlation over time of pixels beside one another: 0 for the noise of a camera.
+/// Correlation over time of pixels beside or below one another, the larger: 0 for the noise of a camera.
 double smoothness(const ClipFrames& clip) {
   const std::size_t width = static_cast<std::size_t>(clip.width), area = clip.luma[0].values.size();
-  const auto num = static_cast<double>(clip.num_frames());
-  std::vector<double> mean(area);
+  std::vector<float> mean(area), off(area);
   for (const Plane& frame : clip.luma)
-    for (std::size_t i = 0; i < area; ++i) mean[i] += static_cast<double>(frame.values[i]) / num;
-  double products = 0, squares = 1e-9;
-  for (const Plane& frame : clip.luma) {
-    double before = 0;
+    for (std::size_t i = 0; i < area; ++i) mean[i] += frame.values[i] / static_cast<float>(clip.num_frames());
+  double beside = 0, below = 0, squares = 1e-9;
+  for (const Plane& frame : clip.luma)
     for (std::size_t i = 0; i < area; ++i) {
-      const double d = static_cast<double>(frame.values[i]) - mean[i];
-      if (i % width != 0) {
-        products += d * before;
-        squares += (d * d + before * before) / 2;
-      }
-      before = d;
+      off[i] = frame.values[i] - mean[i];
+      squares += static_cast<double>(off[i] * off[i]);
+      if (i % width != 0) beside += static_cast<double>(off[i] * off[i - 1]);
+      if (i >= width) below += static_cast<double>(off[i] * off[i - width]);
     }
-  }
-  return products / squares;
+  return std::max(beside, below) / squares;
 }
 
 /// Energy of the differences between frames in the stillest third of the clip / in the liveliest.

@@ -32,8 +32,8 @@ struct LearnedWater {
 /// Whether the motion of a clip is water rather than elements that can be told apart: light that goes up and down all
 /// the time and not when something passes. Σ m₄ / Σ m₂² over the pixels (moments over time, m₂² the weight) is 2.3–4.3
 /// for water, 6.6–95 for snow, birds and sparks; and no third of the clip moves much less than another (a single
-/// firework does). Noise is not water: neighbouring pixels of water correlate by .67–.98 (of sparse snow that noise
-/// hides, by .02). Of fewer than 30 frames nothing is said: false.
+/// firework does). Noise is not water: neighbouring pixels of water correlate by .7–.98, those of sparse snow that
+/// noise hides by .02. Of fewer than 30 frames nothing is said: false.
 bool looks_like_water(const ClipFrames& clip, const JobContext& job = {});
 
 /// Learns falling water, whose elements cannot be told apart: steadied frames over their mean, bases carried forward in
