@@ -12,109 +12,10 @@
 #include <map>
 #include <string>
 
+#include "motex/particles/toy_cables.h"
+
 namespace motex {
 namespace {
-
-constexpr int kFrames = 3;
-constexpr double kPlaces[] = {8, 11, 14};  // x; one cell
-constexpr int kNumPlaces = 3;
-
-CoreState place(int idx) { return {kPlaces[idx], 4, std::log(1.5), 60, 0}; }
-
-/// Masses over the places, from the image and the belief, but blunted: so acceptance must make up for it.
-class PlacesProposal : public CoreProposal {
- public:
-  explicit PlacesProposal(const CablePrior& prior) : prior_(prior) {}
-
-  void look_around(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief) override {
-    weigh(image, kind, belief, [](const CoreState&) { return true; });
-  }
-  bool look_in_cell(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief,
-                    const PictureCell& cell) override {
-    return weigh(image, kind, belief,
-                 [&](const CoreState& z) { return z[kCoreX] >= cell.left && z[kCoreX] < cell.left + cell.width; });
-  }
-  void look_near(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, double, double, double) override {
-    look_around(image, kind, belief);
-  }
-  CoreState best() const override {
-    return place(static_cast<int>(std::max_element(masses_.begin(), masses_.end()) - masses_.begin()));
-  }
-  CoreState draw(Rng& rng) const override { return place(static_cast<int>(rng.weighted(masses_))); }
-  double log_density(const CoreState& state) const override {
-    for (int i = 0; i < kNumPlaces; ++i)
-      if (state[kCoreX] == kPlaces[i]) return std::log(masses_[static_cast<std::size_t>(i)]);
-    return -1e300;
-  }
-  CoreState step(BaseKind, const CoreState& state, Rng& rng) const override {
-    const int move = rng.below(2) == 0 ? -1 : 1;
-    for (int i = 0; i < kNumPlaces; ++i)
-      if (state[kCoreX] == kPlaces[i]) return i + move < 0 || i + move >= kNumPlaces ? state : place(i + move);
-    return state;
-  }
-
- private:
-  template <typename Allowed>
-  bool weigh(const ResidualFrame& image, BaseKind kind, const CoreBelief& belief, Allowed&& allowed) {
-    double total = 0;
-    for (int i = 0; i < kNumPlaces; ++i) {
-      const CoreState z = place(i);
-      const double gain = explained_by(image, kind, z) / (4 * prior_.noise * prior_.noise);
-      const double u = z[kCoreX] - belief.mean[kCoreX];
-      const double mass = allowed(z) ? 0.1 + std::exp(gain - 0.2 * belief.precision[kCoreX] * u * u) : 0;
-      masses_[static_cast<std::size_t>(i)] = mass;
-      total += mass;
-    }
-    for (double& mass : masses_) mass /= std::max(total, 1e-300);
-    return total > 0;
-  }
-
-  const CablePrior& prior_;
-  std::array<double, kNumPlaces> masses_{};
-};
-
-/// Crowded: two elements a frame nearly always, cables long; else few, so that a factor of two in either direction
-/// tells.
-CablePrior toy_prior(bool is_crowded = true) {
-  CablePrior prior;
-  prior.width = 24;
-  prior.height = 8;
-  prior.noise = 80;
-  prior.min_coefficient = 1;
-  prior.density_first = is_crowded ? 8 : 0.8;
-  prior.births_inside = is_crowded ? 5 : 0.5;
-  prior.births_edge = is_crowded ? 4 : 0.4;
-  prior.death_inside = 0.35;
-  prior.death_outside = 0.8;
-  prior.log_scale = {std::log(1.5), 0.5};
-  prior.amplitude = {60, 0.5};
-  CoordinateDynamics& x = prior.dynamics.x;
-  x.a = 1.6;
-  x.b = -0.6;
-  x.c = 0.4;
-  x.d = 3;
-  x.c0 = 1;
-  x.d0 = 4;
-  for (CoordinateDynamics* still : {&prior.dynamics.y, &prior.dynamics.log_scale, &prior.dynamics.amplitude}) {
-    still->d = still->d0 = is_crowded ? 0.12 : 0.3;
-    still->c = still->c0 = 0;
-  }
-  prior.max_per_frame = 2;
-  return prior;
-}
-
-std::vector<Plane> toy_pictures() {
-  std::vector<Plane> pictures(kFrames, Plane(24, 8));
-  Rng rng(5);
-  for (Plane& picture : pictures)
-    for (float& value : picture.values) value = static_cast<float>(20 * rng.normal());
-  for (int t = 0; t < kFrames; ++t)
-    for (int y = 0; y < 8; ++y)
-      for (int x = 0; x < 24; ++x)
-        pictures[static_cast<std::size_t>(t)].at(x, y) +=
-            static_cast<float>(50 * std::exp(-((x - 9 - t) * (x - 9 - t) + (y - 4) * (y - 4)) / 4.5));
-  return pictures;
-}
 
 Cable cable_at(int first, const std::vector<int>& places) {
   Cable cable;
@@ -139,7 +40,7 @@ std::string name_of_state(const std::vector<Cable>& cables) {
 /// What states are compared by: how many elements each frame has and how many links there are; and the lengths of the
 /// cables with the places in the middle frame.
 std::array<std::string, 2> classes_of(const std::vector<Cable>& cables) {
-  std::array<int, kFrames> num{}, lengths{};
+  std::array<int, kToyFrames> num{}, lengths{};
   int middle = 0, links = 0;
   for (const Cable& cable : cables) {
     for (std::int64_t t = cable.first_frame; t < cable.end_frame(); ++t) ++num[static_cast<std::size_t>(t)];
@@ -158,7 +59,7 @@ std::array<std::string, 2> classes_of(const std::vector<Cable>& cables) {
 class Enumeration {
  public:
   Enumeration(const std::vector<Plane>& pictures, const CableLaw& law) : pictures_(pictures), law_(law) {
-    std::vector<std::vector<int>> frames(kFrames);
+    std::vector<std::vector<int>> frames(kToyFrames);
     choose(frames, 0);
     double total = 0;
     for (const auto& [name, weight] : weights_) total += weight;
@@ -177,8 +78,8 @@ class Enumeration {
 
  private:
   void choose(std::vector<std::vector<int>>& frames, int t) {
-    if (t == kFrames) {
-      std::vector<std::vector<int>> links(kFrames - 1);
+    if (t == kToyFrames) {
+      std::vector<std::vector<int>> links(kToyFrames - 1);
       join(frames, links, 0);
       return;
     }
@@ -197,7 +98,7 @@ class Enumeration {
 
   /// All ways to lead elements of frame t to elements of the next, each to at most one.
   void join(const std::vector<std::vector<int>>& frames, std::vector<std::vector<int>>& links, std::size_t t) {
-    if (t + 1 == kFrames) {
+    if (t + 1 == kToyFrames) {
       add(frames, links);
       return;
     }
@@ -214,7 +115,7 @@ class Enumeration {
   void add(const std::vector<std::vector<int>>& frames, const std::vector<std::vector<int>>& links) {
     std::vector<Cable> cables;
     double measure = 1;
-    for (int t = 0; t < kFrames; ++t) {
+    for (int t = 0; t < kToyFrames; ++t) {
       const auto& here = frames[static_cast<std::size_t>(t)];
       if (here.size() == 2) measure /= 2;
       for (std::size_t i = 0; i < here.size(); ++i) {
@@ -227,9 +128,9 @@ class Enumeration {
         }
         std::vector<int> path;
         int at = static_cast<int>(i);
-        for (int u = t; u < kFrames && at >= 0; ++u) {
+        for (int u = t; u < kToyFrames && at >= 0; ++u) {
           path.push_back(frames[static_cast<std::size_t>(u)][static_cast<std::size_t>(at)]);
-          at = u + 1 < kFrames ? links[static_cast<std::size_t>(u)][static_cast<std::size_t>(at)] : -1;
+          at = u + 1 < kToyFrames ? links[static_cast<std::size_t>(u)][static_cast<std::size_t>(at)] : -1;
         }
         cables.push_back(cable_at(t, path));
       }
@@ -256,9 +157,9 @@ class CableMovesToy : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     toy_images = new std::vector<Plane>(toy_pictures());
-    toy_law = new CableLaw(toy_prior(), kFrames);
+    toy_law = new CableLaw(toy_prior(), kToyFrames);
     toy_truth = new Enumeration(*toy_images, *toy_law);
-    toy_sparse_law = new CableLaw(toy_prior(false), kFrames);
+    toy_sparse_law = new CableLaw(toy_prior(false), kToyFrames);
     toy_sparse_truth = new Enumeration(*toy_images, *toy_sparse_law);
   }
   static void TearDownTestSuite() {
@@ -273,13 +174,13 @@ class CableMovesToy : public ::testing::Test {
   static double distance_of(const std::vector<CableMove>& moves) {
     CableState state(*toy_images, {}, *toy_law);
     PlacesProposal proposal(toy_law->prior());
-    CableMoves chain(state, *toy_law, proposal, {0, kFrames}, Rng(11));
+    CableMoves chain(state, *toy_law, proposal, {0, kToyFrames}, Rng(11));
     const double start = log_posterior(state, *toy_law);
     Rng rng(3);
     std::map<std::string, double> visits;
     constexpr int kSteps = 600000;
     for (int step = 0; step < kSteps; ++step) {
-      chain.propose(moves[rng.below(moves.size())], static_cast<int>(rng.below(kFrames)));
+      chain.propose(moves[rng.below(moves.size())], static_cast<int>(rng.below(kToyFrames)));
       if (step % 2 != 0) continue;
       for (const std::string& of : classes_of(state.cables())) visits[of] += 2.0 / kSteps;
     }
@@ -304,11 +205,11 @@ class CableMovesToy : public ::testing::Test {
     constexpr int kRestarts = 90000, kMoves = 2;
     for (int restart = 0; restart < kRestarts; ++restart) {
       CableState state(*toy_images, truth.draw(rng), law);
-      CableMoves chain(state, law, proposal, {0, kFrames}, rng.fork(static_cast<std::uint64_t>(restart)));
+      CableMoves chain(state, law, proposal, {0, kToyFrames}, rng.fork(static_cast<std::uint64_t>(restart)));
       double before = chain.log_posterior_change();
       std::vector<Cable> cables = state.cables();
       for (int k = 0; k < kMoves; ++k) {
-        chain.propose(move, static_cast<int>(rng.below(kFrames)));
+        chain.propose(move, static_cast<int>(rng.below(kToyFrames)));
         if (chain.log_posterior_change() == before) continue;
         before = chain.log_posterior_change();
         const std::vector<Cable> next = state.cables();
@@ -401,97 +302,6 @@ TEST_F(CableMovesToy, PairFill) {
                  {CableJump::kPairExtend, CableJump::kPairShrink, CableJump::kPairBridge, CableJump::kPairCut});
 }
 TEST_F(CableMovesToy, PairTie) { expect_balance(CableMove::kPairTie, {CableJump::kPairMerge, CableJump::kPairSplit}); }
-
-/// On a continuous toy: one frame with a spot, at most one element. Birth and death must share the time as the integral
-/// of the posterior over place, scale and amplitude says.
-TEST(CableMovesContinuous, OneElementIsThereAsOftenAsItsIntegralSays) {
-  CablePrior prior = toy_prior();
-  prior.width = prior.height = 8;
-  prior.max_per_frame = 1;
-  prior.noise = 10;
-  prior.amplitude = {40, 30};
-  prior.log_scale = {0.4, 0.2};
-  prior.density_first = 2e-8;
-  prior.min_coefficient = 5;
-  const CableLaw law(prior, 1);
-  std::vector<Plane> pictures{Plane(8, 8)};
-  Rng noise(2);
-  for (int y = 0; y < 8; ++y)
-    for (int x = 0; x < 8; ++x)
-      pictures[0].at(x, y) =
-          static_cast<float>(25 * std::exp(-((x - 4) * (x - 4) + (y - 3.5) * (y - 3.5)) / 4.4) + 4 * noise.normal());
-  CableState state(pictures, {}, law);
-  double integral = 0;
-  constexpr int kSteps = 22;
-  for (int a = 0; a < kSteps; ++a)
-    for (int s = 0; s < kSteps; ++s)
-      for (int y = 0; y < 2 * kSteps; ++y)
-        for (int x = 0; x < 2 * kSteps; ++x) {
-          const CoreState z{-1 + 10 * (x + 0.5) / (2 * kSteps), -1 + 10 * (y + 0.5) / (2 * kSteps),
-                            -0.5 + 1.8 * (s + 0.5) / kSteps, 70 * (a + 0.5) / kSteps, 0};
-          if (!law.is_possible(BaseKind::kGaussian, z)) continue;
-          integral += std::exp(explained_by(state.image(0), BaseKind::kGaussian, z) / 200 + law.log_birth(z, 0));
-        }
-  integral *= 10.0 / (2 * kSteps) * 10.0 / (2 * kSteps) * 1.8 / kSteps * 70.0 / kSteps;
-  const double expected = integral / (1 + integral);
-  ASSERT_GT(expected, 0.1);
-  ASSERT_LT(expected, 0.9);
-  FittedCoreProposal proposal(prior);
-  CableMoves chain(state, law, proposal, {0, 1}, Rng(7));
-  double there = 0;
-  constexpr int kProposals = 200000;
-  for (int i = 0; i < kProposals; ++i) {
-    chain.propose(i % 4 == 3 ? CableMove::kBirthDeath : CableMove::kDiffuse, 0);
-    there += static_cast<double>(state.live(0).size()) / kProposals;
-  }
-  EXPECT_NEAR(there, expected, 0.03);
-}
-
-/// The level of a cable, all else kept: mean and deviation of its amplitude against sums over a grid.
-TEST(CableMovesContinuous, LevelsHaveTheirPosterior) {
-  CablePrior prior = toy_prior();
-  prior.noise = 12;
-  prior.amplitude = {50, 10};
-  prior.log_scale = {0.4, 0.15};
-  const CableLaw law(prior, kFrames);
-  const std::vector<Plane> pictures = toy_pictures();
-  Cable cable;
-  for (int t = 0; t < kFrames; ++t) cable.core.push_back(core_base(BaseKind::kGaussian, {9.0 + t, 4, 0.3, 40, 0}));
-  CableState state(pictures, {cable}, law);
-  CableState empty(pictures, {}, law);
-  double weight_sum = 0, mean = 0, square = 0, most = -1e300;
-  for (int pass = 0; pass < 2; ++pass)
-    for (double s = -0.6; s < 1.4; s += 0.02)
-      for (double a = 10; a < 110; a += 1) {
-        double log_p = 0;
-        CoreState z{9, 4, s, a, 0};
-        log_p += law.log_birth(z, 0);
-        for (int t = 0; t < kFrames; ++t, z[kCoreX] += 1)
-          log_p += explained_by(empty.image(t), BaseKind::kGaussian, z) / (2 * prior.noise * prior.noise);
-        if (pass == 0) {
-          most = std::max(most, log_p);
-          continue;
-        }
-        const double weight = std::exp(log_p - most);
-        weight_sum += weight;
-        mean += weight * a;
-        square += weight * a * a;
-      }
-  mean /= weight_sum;
-  const double deviation = std::sqrt(square / weight_sum - mean * mean);
-  FittedCoreProposal proposal(prior);
-  CableMoves chain(state, law, proposal, {0, kFrames}, Rng(9));
-  constexpr int kProposals = 40000;
-  double sum = 0, squares = 0;
-  for (int i = 0; i < kProposals; ++i) {
-    chain.propose(CableMove::kLevel, i % kFrames);
-    const double a = state.element(0, state.live(0)[0]).z[kCoreAmplitude];
-    sum += a / kProposals;
-    squares += a * a / kProposals;
-  }
-  EXPECT_NEAR(sum, mean, 0.035 * deviation);
-  EXPECT_NEAR(std::sqrt(squares - sum * sum), deviation, 0.035 * deviation);
-}
 
 }  // namespace
 }  // namespace motex
