@@ -48,7 +48,7 @@ class Learning {
   /// Initial cables: detections linked.
   void find_cables() {
     TrackElementsReport report;
-    model().cables = track_elements(clip_, luma(background_.still()), 0, {}, job_.part(0.05, 0.4), &report);
+    model().cables = track_elements(clip_, background_, {}, job_.part(0.05, 0.4), &report);
     model().flow = report.link.flow.flow;
     seen_ = std::move(report.seen);
     learned_.report.expected_wrong_links = report.link.expected_wrong_share;

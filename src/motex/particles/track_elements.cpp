@@ -138,9 +138,15 @@ double mean_length(const std::vector<SightChain>& chains) {
 /// The rounds of track_elements().
 class Tracker {
  public:
-  Tracker(const ClipFrames& clip, const Plane& background, double noise, const TrackElementsOptions& options,
-          const JobContext& job)
-      : clip_(clip), options_(options), job_(job), given_noise_(noise), residuals_(clip.luma.size()) {
+  /// residuals: frames minus the background of each; empty = `background` is that of all.
+  Tracker(const ClipFrames& clip, const Plane& background, std::vector<Plane> residuals, double noise,
+          const TrackElementsOptions& options, const JobContext& job)
+      : clip_(clip),
+        options_(options),
+        job_(job),
+        given_noise_(noise),
+        is_still_(residuals.empty()),
+        residuals_(std::move(residuals)) {
     now_.background = background;
     subtract_background();
     now_.noise = noise > 0 ? noise : noise_of(residuals_);
@@ -184,13 +190,15 @@ class Tracker {
   };
 
   void subtract_background() {
+    if (!is_still_) return;
+    residuals_.resize(clip_.luma.size());
     parallel_for(job_.jobs, clip_.num_frames(), [&](int t) {
       residuals_[static_cast<std::size_t>(t)] = minus(clip_.luma[static_cast<std::size_t>(t)], now_.background);
     });
   }
 
   void renew_background() {
-    improve_background(now_.left, now_.background);
+    if (is_still_) improve_background(now_.left, now_.background);
     subtract_background();
     if (given_noise_ <= 0) now_.noise = noise_of(now_.left);
   }
@@ -264,12 +272,25 @@ class Tracker {
   const TrackElementsOptions& options_;
   const JobContext& job_;
   double given_noise_;
+  bool is_still_;  ///< one background for all frames
   int num_looks_ = 0;
   DetectOptions detect_;
   std::vector<Plane> residuals_;
   ElementShapes shapes_;
   Followed now_;
 };
+
+std::vector<Cable> tracked(const ClipFrames& frames, const Plane& background, std::vector<Plane> residuals,
+                           double noise, const TrackElementsOptions& options, const JobContext& job,
+                           TrackElementsReport* report) {
+  check(frames, background);
+  TrackElementsReport own;
+  TrackElementsReport& out = report != nullptr ? *report : own;
+  out = {};
+  std::vector<Cable> cables = Tracker(frames, background, std::move(residuals), noise, options, job).run(out);
+  job.progress("tracking elements", 1);
+  return cables;
+}
 
 }  // namespace
 
@@ -288,13 +309,15 @@ Sight sight_of(const Blob& blob, int frame) {
 std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& background, double noise,
                                   const TrackElementsOptions& options, const JobContext& job,
                                   TrackElementsReport* report) {
-  check(frames, background);
-  TrackElementsReport own;
-  TrackElementsReport& out = report != nullptr ? *report : own;
-  out = {};
-  std::vector<Cable> cables = Tracker(frames, background, noise, options, job).run(out);
-  job.progress("tracking elements", 1);
-  return cables;
+  return tracked(frames, background, {}, noise, options, job, report);
+}
+
+std::vector<Cable> track_elements(const ClipFrames& frames, const ClipBackground& background,
+                                  const TrackElementsOptions& options, const JobContext& job,
+                                  TrackElementsReport* report) {
+  const bool is_still = background.kind() != BackgroundKind::kSmooth;
+  return tracked(frames, luma(background.still()), is_still ? std::vector<Plane>() : background.residuals(), 0, options,
+                 job, report);
 }
 
 }  // namespace motex

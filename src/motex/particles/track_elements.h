@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "motex/core/job.h"
+#include "motex/particles/clip_background.h"
 #include "motex/particles/clip_frames.h"
 #include "motex/particles/detect_cores.h"
 #include "motex/particles/link_cores.h"
@@ -46,6 +47,12 @@ Sight sight_of(const Blob& blob, int frame);
 /// background: luma; noise: deviation of a pixel, 0 = measured. Cables in order of their first frame, then x.
 /// Throws InvalidInput (no frames, sizes), Cancelled.
 std::vector<Cable> track_elements(const ClipFrames& frames, const Plane& background, double noise,
+                                  const TrackElementsOptions& options, const JobContext& job = {},
+                                  TrackElementsReport* report = nullptr);
+
+/// The same before the background of a clip: where that differs from frame to frame (a moving camera) each frame is
+/// seen before its own, which is not estimated again.
+std::vector<Cable> track_elements(const ClipFrames& frames, const ClipBackground& background,
                                   const TrackElementsOptions& options, const JobContext& job = {},
                                   TrackElementsReport* report = nullptr);
 

@@ -125,6 +125,21 @@ TEST(TrackElements, AWrongBackgroundIsMended) {
   EXPECT_LT(error / static_cast<double>(wrong.values.size()), 1.5);
 }
 
+TEST(TrackElements, EachFrameIsSeenBeforeItsOwnBackground) {
+  Snow snow = snowfall(20, 16, 4);
+  for (int t = 0; t < snow.clip.num_frames(); ++t)  // light that goes by
+    for (int y = 0; y < 96; ++y)
+      for (int x = 0; x < 128; ++x)
+        snow.clip.luma[static_cast<std::size_t>(t)].at(x, y) +=
+            static_cast<float>(80 + 80 * std::sin((x + 15 * t) / 30.0));
+  const ClipBackground background(snow.clip, BackgroundKind::kSmooth, {});
+  const std::vector<Cable> cables = track_elements(snow.clip, background, {});
+  std::vector<Plane> left = background.residuals();
+  subtract_cables(left, cables, 1);
+  EXPECT_GT(psnr_of(left), psnr_of(background.residuals()) + 2);
+  EXPECT_GT(score_tracks(snow.truth, visible_part(tracks_of(cables, 1), 128, 96)).beta, 0.5);
+}
+
 TEST(TrackElements, SparksOfABurstBeginTogether) {
   SimulateFireworksOptions options;
   options.width = 160;
