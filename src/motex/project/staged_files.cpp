@@ -45,6 +45,19 @@ fs::path StagedFiles::stage(const fs::path& target) {
   return files_.back().first;
 }
 
+JobContext StagedFiles::naming_targets(const JobContext& job) const {
+  JobContext out = job;
+  if (!job.on_warning) return out;
+  out.on_warning = [warn = job.on_warning, files = files_](const std::string& message) {
+    std::string text = message;
+    for (const auto& [staged, target] : files)
+      if (const std::size_t at = text.find(staged.string()); at != std::string::npos)
+        text.replace(at, staged.string().size(), target.string());
+    warn(text);
+  };
+  return out;
+}
+
 void StagedFiles::commit() {
   std::error_code ec;
   for (const auto& [staged, target] : files_) {

@@ -104,6 +104,7 @@ ParticleVideoReport write_particle_video(const ParticleVideoShape& shape, Moveto
   table.write(TrackCsv::heading());
   TrackRows rows(shape);
   std::optional<VideoWriter> video, layer;
+  const JobContext saying = staged.naming_targets(job);
   ParticleVideoReport report;
   MovetonFrame frame;
   Image picture, alone;
@@ -113,8 +114,8 @@ ParticleVideoReport write_particle_video(const ParticleVideoShape& shape, Moveto
     if (!video) {
       report.width = picture.width;
       report.height = picture.height;
-      video.emplace(video_path, picture.width, picture.height, WriteVideoOptions{shape.frames_per_sec, false}, job);
-      layer.emplace(layer_path, picture.width, picture.height, WriteVideoOptions{shape.frames_per_sec, true}, job);
+      video.emplace(video_path, picture.width, picture.height, WriteVideoOptions{shape.frames_per_sec, false}, saying);
+      layer.emplace(layer_path, picture.width, picture.height, WriteVideoOptions{shape.frames_per_sec, true}, saying);
     }
     video->write(picture);
     layer->write(alone);

@@ -180,5 +180,17 @@ TEST(StagedFiles, AppearTogether) {
   EXPECT_THROW(staged.stage(folder.path / "missing" / "c"), InvalidInput);
 }
 
+TEST(StagedFiles, WarningsNameTheTarget) {
+  const TemporaryFolder folder;
+  StagedFiles staged;
+  const std::filesystem::path place = staged.stage(folder.path / "odd.mp4");
+  std::string said;
+  JobContext job;
+  job.on_warning = [&](const std::string& message) { said = message; };
+  staged.naming_targets(job).warn(place.string() + ": the size is odd");
+  EXPECT_EQ(said, (folder.path / "odd.mp4").string() + ": the size is odd");
+  EXPECT_NO_THROW(staged.naming_targets({}).warn("nobody listens"));
+}
+
 }  // namespace
 }  // namespace motex

@@ -12,8 +12,10 @@ bool writes_pictures(const fs::path& path) {
 
 VideoOutputs::VideoOutputs(const std::vector<fs::path>& paths, int width, int height, const WriteVideoOptions& options,
                            const JobContext& job) {
-  for (const fs::path& path : paths)
-    writers_.emplace_back(writes_pictures(path) ? path : staged_.stage(path), width, height, options, job);
+  for (const fs::path& path : paths) {
+    const fs::path place = writes_pictures(path) ? path : staged_.stage(path);
+    writers_.emplace_back(place, width, height, options, staged_.naming_targets(job));
+  }
 }
 
 void VideoOutputs::write(const Image& image) {
