@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 namespace motex {
 
@@ -17,8 +18,19 @@ class MotionTally {
   /// Histograms of 24 bins: speeds to top_speed, directions in steps of 15°.
   explicit MotionTally(double top_speed = 1) : top_speed_(top_speed) {}
 
+  /// Where in the histograms an element is.
+  struct Bins {
+    std::uint8_t speed = 0, direction = 0;
+  };
+  Bins bins_of(double vx, double vy) const;
+  void add(Bins bins, double times = 1) {
+    speeds_[bins.speed] += times;
+    directions_[bins.direction] += times;
+    elements_ += times;
+  }
+
   double top_speed() const { return top_speed_; }
-  void add_element(double vx, double vy);
+  void add_element(double vx, double vy) { add(bins_of(vx, vy)); }
   double num_elements() const { return elements_; }
   void add_frames(double num) { frames_ += num; }
   /// Adds so many times what the other has; −1 takes it away.

@@ -49,25 +49,46 @@ class CableSynthesizer::Population {
   void be_born(std::vector<ElementBirth>& births);
   void begin_waiting();
 
-  /// An event that is to come, and what will be seen of it in each part of the time ahead.
+  /// An element as it is seen so many frames from a certain one on.
+  struct Sighting {
+    std::int32_t after = 0;
+    MotionTally::Bins bins;
+  };
+  /// What an event is like, and what will be seen of it, whenever it comes.
+  struct Flight {
+    std::size_t example = 0;
+    std::vector<ElementBirth> births;  ///< frames counted from the event's
+    std::vector<Sighting> sightings;
+  };
+  /// An event that is to come.
   struct Planned {
     BirthKind kind = BirthKind::kSingle;
     std::int64_t number = 0, frame = 0;
-    std::size_t example = 0;
-    Rng rng{0};  ///< of its places and lives
-    std::vector<ElementBirth> births;
-    std::vector<MotionTally> outlook;
+    Flight flight;
+  };
+  /// What the plan could have instead: another time of an event, the flight of another one, or a new flight.
+  struct Change {
+    std::size_t one = 0, another = 0;
+    std::int64_t frame = 0;
+    std::optional<Flight> flight;
   };
   void choose_steering();
   void learn_tally();
   void plan_births();
   void begin_plan();
   void extend_plan(BirthKind kind, const Rng& rng);
-  std::vector<Planned> redrawn(const Planned& one, const Planned& another, const Rng& rng) const;
+  Change draw_change(Rng rng);
+  void apply(Change& change, std::vector<MotionTally>& ahead);
   void improve_plan(std::vector<MotionTally>& ahead, const Rng& rng);
-  void draw_time(Planned& event, Rng& rng) const;
-  void foresee(Planned& event);
-  std::vector<MotionTally> outlook(std::vector<Element> elements, std::vector<ElementBirth> births, std::int64_t from);
+  std::int64_t draw_time(const Planned& event, Rng& rng) const;
+  void note(const std::vector<Sighting>& sightings, std::int64_t from, double times,
+            std::vector<MotionTally>& ahead) const;
+  void note(const Planned& event, double times, std::vector<MotionTally>& ahead) const {
+    note(event.flight.sightings, event.frame - frame_, times, ahead);
+  }
+  void shift_path(ElementBirth& birth, Rng& rng) const;
+  Flight foresee(BirthKind kind, std::size_t example, Rng rng);
+  std::vector<Sighting> outlook(std::vector<Element> elements, std::vector<ElementBirth> births);
   double unevenness(const std::vector<MotionTally>& ahead, std::size_t last) const;
   double cost(const std::vector<MotionTally>& ahead) const;
   bool counts(const Element& element) const { return steers_singles_ || element.is_burst; }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 #include <utility>
 
@@ -17,14 +16,22 @@ namespace {
 
 constexpr std::size_t kParts = 8;  // of a stretch
 constexpr std::size_t kAheadOfLong = 16, kAheadOfBursts = 8;
-constexpr std::size_t kTries = 40;         // for each event,
-constexpr std::size_t kMostBirths = 2500;  // and so many births drawn for all of them
+constexpr std::size_t kTries = 100;        // for each event,
+constexpr std::size_t kMostTries = 3500;   // for all of them,
+constexpr std::size_t kMostBirths = 2500;  // and so many births foreseen
+constexpr std::uint64_t kExchanges = 3;    // for each flight that is drawn anew
+constexpr double kShiftParts = 3;          // by which a path may begin earlier or later than its example's
+constexpr double kSlack = 0.5;             // of the mean time between births: how much one may come too early or late
 constexpr double kTopQuantile = 0.99, kTopSpeeds = 1.25;
-// differences that are near enough: what remains is left to chance
-constexpr double kNearMotion = 0.03, kNearCount = 0.01;
-constexpr double kCountWeight = 3, kUnevenWeight = 0.5;
+// what a stretch may differ by; of bursts, of which one more or less changes much, the count by less than a run may
+constexpr double kMostMotion = 0.08, kMostCount = 0.05, kMostCountOfBursts = 0.035;
+constexpr double kUnevenWeight = 4;
 
-double excess(double value, double near) { return std::max(0.0, std::abs(value) - near); }
+/// Counts the worst of all most.
+double badness(double apart, double most) {
+  const double square = (apart / most) * (apart / most);
+  return square * square;
+}
 
 }  // namespace
 
@@ -76,22 +83,22 @@ void CableSynthesizer::Population::tally(MotionTally& into) const {
   into.add_frames(1);
 }
 
-/// What will be seen in each part from now on of elements and births alone; `from` is the first frame that is theirs.
-std::vector<MotionTally> CableSynthesizer::Population::outlook(std::vector<Element> elements,
-                                                               std::vector<ElementBirth> births, std::int64_t from) {
+/// What will be seen of elements and births alone; frames are counted from now.
+std::vector<CableSynthesizer::Population::Sighting> CableSynthesizer::Population::outlook(
+    std::vector<Element> elements, std::vector<ElementBirth> births) {
   const std::int64_t now = frame_;
   const bool drew_looks = draws_looks_;
   std::swap(elements_, elements);
   std::swap(waiting_, births);
-  std::vector<MotionTally> parts(num_ahead_, MotionTally(wanted_.top_speed()));
-  const std::int64_t end = now + part_ * static_cast<std::int64_t>(num_ahead_);
-  for (frame_ = from; frame_ < end && !(elements_.empty() && waiting_.empty());) {
+  std::vector<Sighting> sightings;
+  const std::int64_t end = part_ * static_cast<std::int64_t>(num_ahead_);
+  for (frame_ = 0; frame_ < end && !(elements_.empty() && waiting_.empty());) {
     draws_looks_ = drew_looks;  // how large they are tells where they come in
     begin_waiting();
     for (const Element& element : elements_)
       if (counts(element) && is_inside(element))
-        parts[static_cast<std::size_t>((frame_ - now) / part_)].add_element(element.x.now - element.x.before,
-                                                                            element.y.now - element.y.before);
+        sightings.push_back({static_cast<std::int32_t>(frame_),
+                             wanted_.bins_of(element.x.now - element.x.before, element.y.now - element.y.before)});
     draws_looks_ = false;
     advance();
   }
@@ -99,7 +106,7 @@ std::vector<MotionTally> CableSynthesizer::Population::outlook(std::vector<Eleme
   frame_ = now;
   std::swap(elements_, elements);
   std::swap(waiting_, births);
-  return parts;
+  return sightings;
 }
 
 /// How differently the elements are shared out over the parts of the stretch that ends with that one ahead, whatever
@@ -133,24 +140,44 @@ double CableSynthesizer::Population::cost(const std::vector<MotionTally>& ahead)
     }
     stretch.add(ahead[part]);
     const MotionTally::Difference apart = stretch.difference(wanted_);
-    sum += excess(apart.speed, kNearMotion) + excess(apart.direction, kNearMotion) +
-           kCountWeight * excess(apart.count, kNearCount) + kUnevenWeight * unevenness(ahead, part);
+    sum += badness(apart.speed, kMostMotion) + badness(apart.direction, kMostMotion) +
+           badness(apart.count, steers_bursts_ ? kMostCountOfBursts : kMostCount) +
+           kUnevenWeight * unevenness(ahead, part);
   }
   return sum;
 }
 
-void CableSynthesizer::Population::foresee(Planned& event) {
-  event.births.clear();
-  Rng rng = event.rng;
-  births_->add_event(event.kind, event.example, event.frame, rng, event.births);
-  event.outlook = outlook({}, event.births, event.frame);
+/// Elsewhere on the path of its example, if it comes in there as well.
+void CableSynthesizer::Population::shift_path(ElementBirth& birth, Rng& rng) const {
+  const double most = kShiftParts * static_cast<double>(part_);
+  const auto shift = static_cast<std::int64_t>(std::floor(rng.uniform(-most, most + 1)));
+  const Cable& cable = model_.cables[static_cast<std::size_t>(birth.cable)];
+  if (cable.core.size() < 2) return;
+  const auto inwards = [&](std::int64_t first) {
+    const PathReplay::Step step = PathReplay(cable, first).peek();
+    return std::array<double, 4>{step.dx, step.dy, -step.dx, -step.dy}[static_cast<std::size_t>(birth.side)];
+  };
+  if (!birth.enters || inwards(birth.first_step + shift) > 0.5 * std::abs(inwards(birth.first_step)))
+    birth.first_step += shift;
 }
 
-/// Anywhere in its interval that is not past.
-void CableSynthesizer::Population::draw_time(Planned& event, Rng& rng) const {
-  const double rate = births_->rate(event.kind), first = static_cast<double>(event.number) / rate;
-  const double low = std::max(first, static_cast<double>(frame_)), high = first + 1 / rate;
-  event.frame = std::max(frame_, static_cast<std::int64_t>(std::floor(rng.uniform(low, std::max(low, high)))));
+CableSynthesizer::Population::Flight CableSynthesizer::Population::foresee(BirthKind kind, std::size_t example,
+                                                                           Rng rng) {
+  Flight flight;
+  flight.example = example;
+  births_->add_event(kind, example, 0, rng, flight.births);
+  if (kind == BirthKind::kSingle) shift_path(flight.births[0], rng);
+  flight.sightings = outlook({}, flight.births);
+  return flight;
+}
+
+/// Anywhere in its interval, or near it, that is not past.
+std::int64_t CableSynthesizer::Population::draw_time(const Planned& event, Rng& rng) const {
+  const double rate = births_->rate(event.kind), slack = event.kind == BirthKind::kSingle ? kSlack : 0;
+  const auto number = static_cast<double>(event.number);
+  const double low = std::max((number - slack) / rate, static_cast<double>(frame_));
+  const double high = (number + 1 + slack) / rate;
+  return std::max(frame_, static_cast<std::int64_t>(std::floor(rng.uniform(low, std::max(low, high)))));
 }
 
 /// Events whose interval begins before the time ahead is over.
@@ -163,9 +190,8 @@ void CableSynthesizer::Population::extend_plan(BirthKind kind, const Rng& rng) {
     Planned event;
     event.kind = kind;
     event.number = next;
-    event.example = births_->example_of(kind, next, own, 0);
-    event.rng = own.fork(0);
-    draw_time(event, own);
+    event.flight = foresee(kind, births_->example_of(kind, next, own, 0), own.fork(0));
+    event.frame = draw_time(event, own);
     plan_.push_back(std::move(event));
   }
 }
@@ -178,54 +204,70 @@ void CableSynthesizer::Population::begin_plan() {
   next_burst_ = first(BirthKind::kBurst);
 }
 
-/// Another event instead of one of the plan; of those that come alone two may exchange what they are like, so that each
-/// example goes on coming as often as it should.
-std::vector<CableSynthesizer::Population::Planned> CableSynthesizer::Population::redrawn(const Planned& one,
-                                                                                         const Planned& another,
-                                                                                         const Rng& rng) const {
-  Rng own = rng;
-  std::vector<Planned> drawn{one};
-  const std::uint64_t what = own.below(3);  // 0: time, 1: example, 2: both
-  if (what != 0) {
-    if (one.kind == BirthKind::kBurst) {
-      drawn[0].example = births_->example_of(one.kind, one.number, own, 1);
-    } else if (another.kind == one.kind && another.example != one.example) {
-      drawn.push_back(another);
-      std::swap(drawn[0].example, drawn[1].example);
-    }
+/// What to try instead. Events exchange flights far more often than they get new ones, so that each example goes on
+/// coming as often as it should; and it costs little.
+CableSynthesizer::Population::Change CableSynthesizer::Population::draw_change(Rng rng) {
+  Change change;
+  change.one = rng.below(plan_.size());
+  const std::size_t another = rng.below(plan_.size());
+  const Planned& one = plan_[change.one];
+  const std::uint64_t what = rng.below(3);  // 0: time, 1: flight, 2: both
+  change.another = change.one;
+  change.frame = what == 1 ? one.frame : draw_time(one, rng);
+  if (what == 0) return change;
+  if (plan_[another].kind == one.kind && rng.below(kExchanges + 1) > 0) {
+    change.another = another;
+    return change;
   }
-  if (what != 1) draw_time(drawn[0], own);
-  drawn[0].rng = own;
-  return drawn;
+  std::size_t example = one.flight.example;
+  if (one.kind == BirthKind::kBurst) example = births_->example_of(one.kind, one.number, rng, 1);
+  change.flight = foresee(one.kind, example, rng.fork(0));
+  return change;
 }
 
-/// Draws events anew, and keeps what comes nearer.
+/// Makes the change; a second time takes it back.
+void CableSynthesizer::Population::apply(Change& change, std::vector<MotionTally>& ahead) {
+  Planned &one = plan_[change.one], &another = plan_[change.another];
+  note(one, -1, ahead);
+  if (change.another != change.one) {
+    note(another, -1, ahead);
+    std::swap(one.flight, another.flight);
+    note(another, 1, ahead);
+  }
+  if (change.flight) std::swap(one.flight, *change.flight);
+  std::swap(one.frame, change.frame);
+  note(one, 1, ahead);
+}
+
+/// Tries changes, and keeps those that come nearer.
 void CableSynthesizer::Population::improve_plan(std::vector<MotionTally>& ahead, const Rng& rng) {
-  const auto exchange = [&ahead](const Planned& out, const Planned& in) {
-    for (std::size_t part = 0; part < ahead.size(); ++part) {
-      ahead[part].add(out.outlook[part], -1);
-      ahead[part].add(in.outlook[part]);
-    }
-  };
   double least = cost(ahead);
   std::size_t num_births = 0;
-  for (std::size_t k = 0; k < kTries * plan_.size() && num_births < kMostBirths && least > 0; ++k) {
-    Rng own = rng.fork(k);
-    const std::array<std::size_t, 2> which{own.below(plan_.size()), own.below(plan_.size())};
-    std::vector<Planned> drawn = redrawn(plan_[which[0]], plan_[which[1]], own);
-    for (std::size_t j = 0; j < drawn.size(); ++j) {
-      foresee(drawn[j]);
-      num_births += drawn[j].births.size();
-      exchange(plan_[which[j]], drawn[j]);
-    }
+  const std::size_t num_tries = std::min(kTries * plan_.size(), kMostTries);
+  for (std::size_t k = 0; k < num_tries && num_births < kMostBirths; ++k) {
+    Change change = draw_change(rng.fork(k));
+    if (change.flight) num_births += change.flight->births.size();
+    apply(change, ahead);
     const double now = cost(ahead);
-    for (std::size_t j = 0; j < drawn.size(); ++j) {
-      std::swap(plan_[which[j]], drawn[j]);
-      if (now < least) continue;
-      exchange(plan_[which[j]], drawn[j]);
-      std::swap(plan_[which[j]], drawn[j]);
+    if (now < least)
+      least = now;
+    else
+      apply(change, ahead);
+  }
+}
+
+/// Adds sightings, so many frames from now, to the parts of the time ahead.
+void CableSynthesizer::Population::note(const std::vector<Sighting>& sightings, std::int64_t from, double times,
+                                        std::vector<MotionTally>& ahead) const {
+  auto part = static_cast<std::size_t>(from / part_);
+  std::int64_t end = (from / part_ + 1) * part_;
+  for (const Sighting& sighting : sightings) {
+    while (from + sighting.after >= end) {
+      end += part_;
+      ++part;
     }
-    least = std::min(least, now);
+    if (part >= num_ahead_) return;
+    ahead[part].add(sighting.bins, times);
   }
 }
 
@@ -235,19 +277,22 @@ void CableSynthesizer::Population::plan_births() {
   if (past_.empty()) begin_plan();
   if (steers_singles_) extend_plan(BirthKind::kSingle, rng.fork(0));
   if (steers_bursts_) extend_plan(BirthKind::kBurst, rng.fork(1));
-  std::vector<MotionTally> ahead = outlook(elements_, waiting_, frame_);
+  std::vector<ElementBirth> waiting = waiting_;
+  for (ElementBirth& birth : waiting) birth.frame -= frame_;
+  std::vector<MotionTally> ahead(num_ahead_, MotionTally(wanted_.top_speed()));
+  note(outlook(elements_, std::move(waiting)), 0, 1, ahead);
   for (MotionTally& part : ahead) part.add_frames(static_cast<double>(part_));
-  for (Planned& event : plan_) {
-    foresee(event);
-    for (std::size_t part = 0; part < num_ahead_; ++part) ahead[part].add(event.outlook[part]);
-  }
+  for (const Planned& event : plan_) note(event, 1, ahead);
   improve_plan(ahead, rng.fork(2));
   if (past_.size() == kParts) past_.erase(past_.begin());
   past_.emplace_back(wanted_.top_speed());
   // those of this part will come so
   std::erase_if(plan_, [this](const Planned& event) {
     if (event.frame >= frame_ + part_) return false;
-    waiting_.insert(waiting_.end(), event.births.begin(), event.births.end());
+    for (ElementBirth birth : event.flight.births) {
+      birth.frame += event.frame;
+      waiting_.push_back(birth);
+    }
     return true;
   });
 }

@@ -11,7 +11,6 @@
 #include "motex/particles/arrivals.h"
 #include "motex/particles/birth_death.h"
 #include "motex/particles/fit_dynamics.h"
-#include "motex/particles/motion_tally.h"
 #include "motex/particles/simulate.h"
 
 namespace motex {
@@ -320,70 +319,6 @@ TEST(Synthesize, BurstsComeAsAWhole) {
   EXPECT_GE(births.size(), 6U);
   for (const auto& [frame, num] : births) EXPECT_EQ(num, 6) << "every second one a frame later, as learned";
   for (const Cable& cable : cables) EXPECT_LE(cable.num_frames(), 16);
-}
-
-double total_variation_from(const MotionTally& seen, const MotionTally& clip) {
-  const MotionTally::Difference apart = seen.difference(clip);
-  return std::max({apart.speed, apart.direction, std::abs(apart.count)});
-}
-
-/// Flights straight across the picture, each with a velocity of its own, two of them slow.
-TexturedMotion few_flights() {
-  TexturedMotion model;
-  model.width = kWidth;
-  model.height = kHeight;
-  model.num_frames = 120;
-  Rng rng(5);
-  for (int k = 0; k < 16; ++k) {
-    const double angle = 0.39 * k, speed = k < 2 ? 0.3 : 1.5 + 0.1 * k;
-    Cable cable;
-    cable.first_frame = static_cast<std::int64_t>(rng.below(90));
-    double x = rng.uniform(10, kWidth - 10), y = rng.uniform(10, kHeight - 10);
-    while (x > 0 && y > 0 && x < kWidth - 1 && y < kHeight - 1 && cable.end_frame() < model.num_frames) {
-      cable.core.push_back(spot(x, y, 1, 100));
-      x += speed * std::cos(angle);
-      y += speed * std::sin(angle);
-    }
-    model.cables.push_back(cable);
-  }
-  model.maps.bandwidth = 5;
-  model.dynamics.push_back(fit_dynamics(model.cables));
-  return model;
-}
-
-MotionTally tally_of(const std::vector<Cable>& cables, std::int64_t first, std::int64_t num_frames) {
-  MotionTally tally(5);
-  for (const Cable& cable : cables)
-    for (std::int64_t t = std::max(first, cable.first_frame + 1); t < std::min(first + num_frames, cable.end_frame());
-         ++t) {
-      const Base &now = cable.at(t), &before = cable.at(t - 1);
-      const auto is_inside = [](const Base& base) {
-        return base.x >= -0.5 && base.y >= -0.5 && base.x < kWidth - 0.5 && base.y < kHeight - 0.5;
-      };
-      if (is_inside(now) && is_inside(before)) tally.add_element(now.x - before.x, now.y - before.y);
-    }
-  tally.add_frames(static_cast<double>(num_frames));
-  return tally;
-}
-
-TEST(Synthesize, AnyStretchOfFewIsLikeTheClip) {
-  const TexturedMotion model = few_flights();
-  const MotionTally clip = tally_of(model.cables, 0, model.num_frames);
-  const auto mean_apart = [&](double rate) {
-    double sum = 0;
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-      SynthesizeParticlesOptions options;
-      options.seed = seed;
-      options.rate = rate;
-      const std::vector<Cable> cables = synthesize_cables(model, options, 3 * model.num_frames);
-      for (std::int64_t first = 0; first <= 2 * model.num_frames; first += model.num_frames / 2)
-        sum += total_variation_from(tally_of(cables, first, model.num_frames), clip) / 15;
-    }
-    return sum;
-  };
-  const double chosen = mean_apart(1), by_chance = mean_apart(1.0001);  // what is edited is left to chance
-  EXPECT_LT(chosen, 0.15);
-  EXPECT_LT(chosen, 0.6 * by_chance);
 }
 
 TEST(Synthesize, AppearanceOfTemplates) {
