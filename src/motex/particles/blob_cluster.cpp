@@ -303,6 +303,11 @@ class ClusterSolver {
       blob.e1 *= kMaxStretch / stretch;
       blob.e2 *= kMaxStretch / stretch;
     }
+    if (std::abs(blob.amplitude) > options_.max_light) {  // a centre half a pixel off in x and y hides some of its peak
+      const double most =
+          options_.max_light * std::exp(0.25 * std::exp(std::min(stretch, kMaxStretch) - 2 * blob.log_scale));
+      blob.amplitude = std::clamp(blob.amplitude, -most, most);
+    }
     return blob;
   }
 

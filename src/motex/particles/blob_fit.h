@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -40,6 +41,9 @@ struct FitBlobsOptions {
   double noise = 1;       ///< deviation of a pixel, grey levels
   bool oriented = false;  ///< e₁, e₂ are fitted too
   double min_scale = 0.6, max_scale = 10;
+  /// Most that a blob adds to a pixel, wherever in it its centre lies, grey levels. Two of opposite sign in one place
+  /// would grow without end, and undo one another as long as both are painted.
+  double max_light = std::numeric_limits<double>::infinity();
 };
 
 class BlobCluster;

@@ -22,6 +22,7 @@ constexpr double kAgreement = 0.4;   // of the amplitude expected: the frame agr
 constexpr double kMergeReach = 1.5;  // deviations of a spot within which others may be merged in it
 constexpr double kMergeLoss = 10;    // of what a fit minimises, for spots that longer paths lead to
 constexpr double kWeakRatio = 0.2;   // of a stronger spot's peak there: a part of it
+constexpr double kMostLight = 1.2;   // of the most light of a pixel: more of it no spot shows
 
 /// Distance of (x, y) from a spot in its deviations.
 double distance_in(const Blob& blob, double x, double y) {
@@ -29,6 +30,13 @@ double distance_in(const Blob& blob, double x, double y) {
   if (blob.e1 == 0 && blob.e2 == 0) return std::sqrt(dx * dx + dy * dy) / blob.scale();
   const double c = std::cos(blob.angle()), s = std::sin(blob.angle()), e = std::hypot(blob.e1, blob.e2) / 2;
   return std::hypot((dx * c + dy * s) / std::exp(e), (dy * c - dx * s) / std::exp(-e)) / blob.scale();
+}
+
+/// Largest |value|.
+double largest_of(const Plane& plane) {
+  float largest = 0;
+  for (const float value : plane.values) largest = std::max(largest, std::abs(value));
+  return static_cast<double>(largest);
 }
 
 /// Height of a spot twice as wide at (x, y): how far its neighbourhood reaches.
@@ -42,7 +50,7 @@ class Detector {
   Detector(const Plane& residual, double noise, const DetectOptions& options)
       : noise_(noise),
         options_(options),
-        fitter_(residual, fit_options(noise, options)),
+        fitter_(residual, fit_options(residual, noise, options)),
         structure_(std::clamp((options.shape_misfit - kGaussianMisfit) / kGaussianMisfit, 0.0, 1.0)) {}
 
   /// Those seen before first, then the guesses where what is left agrees with them.
@@ -101,12 +109,14 @@ class Detector {
     return nearest;
   }
 
-  static FitBlobsOptions fit_options(double noise, const DetectOptions& options) {
+  static FitBlobsOptions fit_options(const Plane& residual, double noise, const DetectOptions& options) {
     // What elements are not Gaussian by is noise to their fit.
     const double misfit =
         std::max(0.0, options.shape_misfit - 0.75 * kGaussianMisfit) * options.min_amplitude / kFaintShare;
-    return {std::hypot(noise, misfit), options.shape == CoreShape::kOriented, 0.8 * options.min_scale,
-            1.25 * options.max_scale};
+    FitBlobsOptions fit{std::hypot(noise, misfit), options.shape == CoreShape::kOriented, 0.8 * options.min_scale,
+                        1.25 * options.max_scale};
+    if (options.sign == CoreSign::kBoth) fit.max_light = kMostLight * largest_of(residual);
+    return fit;
   }
 
   bool add_peaks(int round) {
