@@ -89,6 +89,17 @@ double ElementFilter::follow(const Sight& sight) {
          follow(scale_, model_->log_scale, sight.log_scale, sight.log_scale_variance, num);
 }
 
+ElementFilter ElementFilter::waited(int frame) const {
+  ElementFilter out = *this;
+  const int num = frame - frame_;
+  advance(out.x_, model_->x, num);
+  advance(out.y_, model_->y, num);
+  out.amplitude_.variance += num * model_->log_amplitude.step_variance;
+  out.scale_.variance += num * model_->log_scale.step_variance;
+  out.frame_ = frame;
+  return out;
+}
+
 double ElementFilter::distance(const Sight& sight) const {
   Axis x = x_, y = y_;
   advance(x, model_->x, sight.frame - frame_);

@@ -56,6 +56,8 @@ class ElementFilter {
   /// Log-density of the next sight (of a later frame) given all before; takes it in. Sights far off count as
   /// outliers: bounded cost, little pull.
   double follow(const Sight& sight);
+  /// The same filter in a later frame, having seen nothing in between.
+  ElementFilter waited(int frame) const;
   /// Squared distance of the sight's place from where it is expected, in deviations.
   double distance(const Sight& sight) const;
   double expected_x(int frame) const;

@@ -23,7 +23,8 @@ class Linker {
  public:
   Linker(const std::vector<std::vector<Sight>>& frames, const ElementModel& model, const LinkSightsOptions& options,
          const JobContext& job)
-      : options_(options), job_(job), model_(model), num_frames_(static_cast<int>(frames.size())) {
+      : options_(options), job_(job), num_frames_(static_cast<int>(frames.size())) {
+    set_model(model);
     for (const std::vector<Sight>& frame : frames) {
       first_of_frame_.push_back(static_cast<int>(sights_.size()));
       sights_.insert(sights_.end(), frame.begin(), frame.end());
@@ -49,7 +50,7 @@ class Linker {
       num_changes_ = 0;
       for (int k = 0; k + 1 < num_frames_; ++k) join_at(sweep % 2 == 0 ? k : num_frames_ - 2 - k);
       if (sweep > 0 && num_changes_ == 0) break;
-      if (sweep + 1 < options_.sweeps) model_ = fit_element_model(paths(), edges_, num_frames_, model_);
+      if (sweep + 1 < options_.sweeps) set_model(fit_element_model(paths(), edges_, num_frames_, model_));
     }
     // Once more with the model that will be reported, now counting how sure each link is.
     wrong_.assign(sights_.size(), 0);
@@ -64,6 +65,12 @@ class Linker {
   int& previous(int id) { return previous_[static_cast<std::size_t>(id)]; }
   int next(int id) const { return next_[static_cast<std::size_t>(id)]; }
   int previous(int id) const { return previous_[static_cast<std::size_t>(id)]; }
+
+  void set_model(const ElementModel& model) {
+    model_ = model;
+    log_gaps_.clear();
+    for (int gap = 0; gap <= options_.max_gap; ++gap) log_gaps_.push_back(log_of_gap(gap));
+  }
 
   /// Ends of paths before the cut (after frame `cut`) and beginnings after it that are or may be joined across it.
   void collect(int cut) {
@@ -98,17 +105,22 @@ class Linker {
 
   /// ln probability of living on and not being seen for that many frames in between.
   double log_gap(int gap) const {
+    const auto idx = static_cast<std::size_t>(gap);
+    return idx < log_gaps_.size() ? log_gaps_[idx] : log_of_gap(gap);
+  }
+  double log_of_gap(int gap) const {
     const double alive = (gap + 1) * std::log(1 - model_.death);
     if (gap == 0) return alive + std::log(model_.seen);
     return alive + std::log(1 - model_.seen) + (gap - 1) * std::log(model_.hidden) + std::log(1 - model_.hidden);
   }
 
-  /// ln density of the tail's first sights after what the filter has seen.
-  double follow(ElementFilter filter, int tail) const {
+  /// ln density of the tail's first sights after what the filter has seen, the last time in frame `last_seen`.
+  double follow(ElementFilter filter, int last_seen, int tail) const {
     double sum = 0;
     for (int k = 0, id = tail; k < kForesight && id >= 0; ++k, id = next(id)) {
-      const int gap = at(id).frame - filter.frame() - 1;
+      const int gap = at(id).frame - last_seen - 1;
       sum += filter.follow(at(id)) + log_gap(gap);
+      last_seen = at(id).frame;
     }
     return sum;
   }
@@ -171,11 +183,12 @@ class Linker {
         {num_frames_ - 1, at(head).frame + 1 + options_.max_gap, tails_.empty() ? -1 : at(tails_.back()).frame});
     for (int t = std::max(at(head).frame + 1, tails_.empty() ? num_frames_ : at(tails_.front()).frame); t <= last_frame;
          ++t) {
-      const double variance_y = filter.variance_y(t), y = filter.expected_y(t), reach = std::sqrt(kGate * variance_y);
+      const ElementFilter here = filter.waited(t);
+      const double variance_y = here.variance_y(t), y = here.expected_y(t), reach = std::sqrt(kGate * variance_y);
       const double density =
           (first_of_frame_[static_cast<std::size_t>(t) + 1] - first_of_frame_[static_cast<std::size_t>(t)]) /
           std::max(1.0, edges_.width * edges_.height);
-      const double rivals = 4 * std::numbers::pi * std::sqrt(filter.variance_x(t) * variance_y) * density;
+      const double rivals = 4 * std::numbers::pi * std::sqrt(here.variance_x(t) * variance_y) * density;
       if (t > at(head).frame + 1 && rivals > kMostRivals) break;
       near_.clear();
       const auto begin = by_y_.begin() + first_of_frame_[static_cast<std::size_t>(t)],
@@ -183,7 +196,7 @@ class Linker {
       for (auto id = std::lower_bound(begin, end, y - reach, [&](int a, double value) { return at(a).y < value; });
            id != end && at(*id).y <= y + reach; ++id) {
         if (tail_idx_[static_cast<std::size_t>(*id)] < 0) continue;
-        const double distance = filter.distance(at(*id));
+        const double distance = here.distance(at(*id));
         if (distance <= kGate) near_.emplace_back(distance, *id);
       }
       if (near_.size() > kNearest) {
@@ -193,7 +206,7 @@ class Linker {
       for (const auto& [distance, id] : near_) {
         const int column = tail_idx_[static_cast<std::size_t>(id)];
         const auto c = static_cast<std::size_t>(column);
-        const double joined = follow(filter, id) + log_ends(at(first), at(tail_firsts_[c]), false);
+        const double joined = follow(here, at(head).frame, id) + log_ends(at(first), at(tail_firsts_[c]), false);
         gains_.push_back({row, column, joined - head_ends - tail_values_[c]});
       }
     }
@@ -290,7 +303,8 @@ class Linker {
   std::vector<int> first_of_frame_, by_y_, next_, previous_;
   bool foresees_gaps_ = false, measures_doubt_ = false;
   int num_changes_ = 0;
-  std::vector<double> wrong_;  // of the link after each sight
+  std::vector<double> log_gaps_;  // by the frames not seen
+  std::vector<double> wrong_;     // of the link after each sight
   // of the cut at hand
   std::vector<int> heads_, tails_, tail_idx_, tail_firsts_;
   std::vector<double> tail_values_;
