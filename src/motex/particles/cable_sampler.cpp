@@ -112,7 +112,7 @@ class Sampler {
         job_.check_cancelled();
         go_through(frame, sweep, moves);
       }
-      if (options_.jumps && sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
+      if (sweep >= kSettlingSweeps && sweep < kSettlingSweeps + options_.search_sweeps)
         rebuilds[idx] = search(pieces[idx], moves);
       changes[idx] = moves.log_posterior_change();
       counts[idx] = moves.counts();
@@ -165,7 +165,7 @@ class Sampler {
 
   void go_through(int frame, int sweep, CableMoves& moves) const {
     for (const MoveRate& rate : kRates) {
-      if ((sweep < kSettlingSweeps || !options_.jumps) && !keeps_links(rate.move)) continue;
+      if (sweep < kSettlingSweeps && !keeps_links(rate.move)) continue;
       const double num_cells = std::min<double>(state_.num_cells(), 4 + 2 * elements_per_frame_);
       double num = rate.per_element * elements_per_frame_ + rate.per_cell * num_cells;
       if (sweep < kSettlingSweeps) num *= 2;

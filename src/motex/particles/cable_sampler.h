@@ -17,7 +17,6 @@ struct SampleCablesOptions {
   int search_sweeps = 8;
   int learn_sweeps = 0;
   bool static_background = false;
-  bool jumps = true;
   std::uint64_t seed = 1;
 
   template <typename Self, typename Visitor>
@@ -30,8 +29,6 @@ struct SampleCablesOptions {
           self.learn_sweeps, Range{0, 100000});
     visit(Field{"static_background", "", "the background does not change in time: it is sampled too"},
           self.static_background, Range{});
-    visit(Field{"jumps", "", "cables may come, go and be joined otherwise; off: only their bases are fitted"},
-          self.jumps, Range{});
     visit(Field{"seed", "", "random numbers; the same seed gives the same cables"}, self.seed, Range{0, 1.8e19});
   }
 };

@@ -37,7 +37,7 @@ class Learning {
 
   LearnedTexturedMotion run() {
     find_cables();
-    for (int round = 0; round < options_.rounds; ++round) sample(round);
+    for (int round = 0; round < options_.rounds && cores_explain_elements(); ++round) sample(round);
     grow();
     describe_cables();
     describe_clip();
@@ -71,8 +71,6 @@ class Learning {
     const CablePrior prior = estimate_prior(model().cables, clip_.width, clip_.height, prior_options);
     SampleCablesOptions sample_options;
     sample_options.sweeps = options_.sweeps;
-    sample_options.jumps = cores_explain_elements();
-    if (!sample_options.jumps) sample_options.sweeps = std::min(sample_options.sweeps, 3);
     sample_options.search_sweeps = options_.sweeps / 3;
     sample_options.learn_sweeps = options_.sweeps / 2;
     sample_options.static_background = background_.kind() != BackgroundKind::kSmooth;
@@ -90,8 +88,8 @@ class Learning {
     add_round(trace.empty() ? 0 : trace.back());
   }
 
-  /// Whether background and cores leave little but noise. Where elements have parts (wings), the jumps, which know
-  /// cores alone, would explain the parts by elements of their own.
+  /// Whether background and cores leave little but noise. Where elements have parts (wings), the sampler, which knows
+  /// cores alone, would explain the parts by elements of their own and move cores towards them: linked cables stay.
   bool cores_explain_elements() const {
     constexpr double kMostMisfit = 1.3;
     const LearnRound& last = learned_.report.rounds.back();

@@ -31,8 +31,10 @@ struct LearnTexturedMotionOptions {
   template <typename Self, typename Visitor>
   static void visit_fields(Self& self, Visitor&& visit) {
     visit(Field{"seed", "", "random numbers; the same seed gives the same model"}, self.seed, Range{0, 1.8e19});
-    visit(Field{"rounds", "", "times that cables are sampled and everything else is fitted to them"}, self.rounds,
-          Range{0, 50});
+    visit(Field{"rounds", "",
+                "times that cables are sampled and everything else is fitted to them, where elements have no parts "
+                "(wings)"},
+          self.rounds, Range{0, 50});
     visit(Field{"sweeps", "", "times that the sampler goes through every frame in a round"}, self.sweeps,
           Range{1, 10000});
     visit(Field{"background", "",
