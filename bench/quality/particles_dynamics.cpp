@@ -213,10 +213,10 @@ int run(int first_seed, int num_seeds, const std::string& part) {
 }  // namespace
 }  // namespace motex
 
-/// particles_dynamics [FIRST_SEED [NUM_SEEDS [dynamics|bursts|wings|maps]]]
+/// particles_dynamics [FIRST_SEED [NUM_SEEDS [dynamics|bursts|wings|maps]]]; without arguments seed 1
 int main(int argc, char** argv) {
   try {
-    return motex::run(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? std::atoi(argv[2]) : 2, argc > 3 ? argv[3] : "");
+    return motex::run(argc > 1 ? std::atoi(argv[1]) : 1, argc > 2 ? std::atoi(argv[2]) : 1, argc > 3 ? argv[3] : "");
   } catch (const motex::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
