@@ -11,6 +11,7 @@
 #include "motex/particles/coils.h"
 #include "motex/particles/fit_dynamics.h"
 #include "motex/particles/learn_water.h"
+#include "motex/particles/mend_light.h"
 #include "motex/particles/regroup.h"
 #include "motex/particles/templates.h"
 #include "motex/particles/track_elements.h"
@@ -38,6 +39,7 @@ class Learning {
   LearnedTexturedMotion run() {
     find_cables();
     for (int round = 0; round < options_.rounds && cores_explain_elements(); ++round) sample(round);
+    if (!sampled_) mend();
     grow();
     describe_cables();
     describe_clip();
@@ -60,6 +62,13 @@ class Learning {
       for (std::size_t i = 0; i < change.values.size(); ++i) change.values[i] -= before.values[i];
       background_.shift(clip_, change, job_.jobs);
     }
+    add_round(0);
+  }
+
+  /// Amplitudes of linked cables. The sampler finds them itself, and would cut paths off where they begin faint.
+  void mend() {
+    mend_light(background_.residuals(), model().cables, job_.jobs);
+    learned_.report.rounds.clear();
     add_round(0);
   }
 

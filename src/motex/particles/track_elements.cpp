@@ -12,7 +12,6 @@
 #include "motex/particles/burst_starts.h"
 #include "motex/particles/detect_shaped.h"
 #include "motex/particles/expectations.h"
-#include "motex/particles/mend_light.h"
 #include "motex/particles/paths_of_parts.h"
 
 namespace motex {
@@ -266,7 +265,6 @@ class Tracker {
       report.seen.push_back(as_seen(cables.back(), chain, now_.blobs));
     }
     share_light(starts, now_.left, cables);
-    mend_light(residuals_, cables, job_.jobs);
     return cables;
   }
 
